@@ -73,7 +73,7 @@ FOLDERS = {
 
 # The benchmarks time the kernels. The adapters of peers and the table of plane meshers read and write with the very code of the mesher's command line, so that every mesher
 # sees the same doubles; the io library needs nothing of the mesher but the public header.
-ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/tetgen_adapter/": "mesher/io/", "corpus/peer_adapters/": "mesher/io/", "corpus/plane/": "mesher/io/",
+ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/peers/tetgen/": "mesher/io/", "corpus/peers/programs/": "mesher/io/", "corpus/plane/": "mesher/io/",
             "python/": "mesher/named_options.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -36,8 +36,8 @@ GOOD = {
     "property_tests/laws_test.cpp": "#include \"oracles/report.h\"\n#include \"mesher/refine/refine.h\"\n",
     "mesher/named_options.h": "#pragma once\n",
     "python/bindings.cpp": "#include <pybind11/stl.h>\n#include \"mesher/delmesher.h\"\n#include \"mesher/named_options.h\"\n",
-    "corpus/tetgen_adapter/adapter.cpp": "#include <tetgen.h>\n",
-    "corpus/tetgen_adapter/LICENSE.md": "Links TetGen, which is under the AGPL.\n",
+    "corpus/peers/tetgen/adapter.cpp": "#include <tetgen.h>\n",
+    "corpus/peers/tetgen/LICENSE.md": "Links TetGen, which is under the AGPL.\n",
 }
 
 # What is changed, and what the complaint must contain.
@@ -79,7 +79,7 @@ BAD = {
     "machine path": ({"ci/x.sh": "cd /" + "home/someone\n"}, "path of one machine"),
     "packages listed twice": ({"ci/x.sh": "apt-get install libone-dev libtwo-dev\n"}, "lists packages"),
     "licence missing": ({"LICENSE": ""}, "licence of the project"),
-    "AGPL unsaid": ({"corpus/tetgen_adapter/LICENSE.md": "free\n"}, "uses AGPL code"),
+    "AGPL unsaid": ({"corpus/peers/tetgen/LICENSE.md": "free\n"}, "uses AGPL code"),
     "GPL unsaid": ({"oracles/c.cpp": "#include <CGAL/Epeck.h>\n"}, "uses GPL code"),
 }
 

@@ -2,7 +2,7 @@
 // that inputs are long enough for a target from the start. Deterministic in the seed.
 #include <algorithm>
 
-#include "corpus/generate/random.h"
+#include "corpus/generators/random.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "corpus/generate/random.h"
+#include "corpus/generators/random.h"
 #include "fuzz/properties.h"
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "corpus/generate/certify.h"
-#include "corpus/generate/generate.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/generate.h"
 #include "mesher/io/parse_surface.h"
 #include "property_tests/leniency.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "corpus/generate/generate.h"
+#include "corpus/generators/generate.h"
 #include "fuzz/plain_files.h"
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"

@@ -11,11 +11,11 @@
 #include <iterator>
 #include <optional>
 
-#include "corpus/generate/certify.h"
-#include "corpus/generate/edits.h"
-#include "corpus/generate/generate.h"
-#include "corpus/generate/shrink.h"
-#include "corpus/generate/twins.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/edits.h"
+#include "corpus/generators/generate.h"
+#include "corpus/generators/shrink.h"
+#include "corpus/generators/twins.h"
 #include "fuzz/properties.h"
 #include "mesher/delmesher.h"
 #include "mesher/io/parse_surface.h"
@@ -196,7 +196,7 @@ std::vector<std::string> peer_failures() {
   return names;
 }
 
-// Small surfaces on which other meshers fail (corpus/failures/README.md).
+// Small surfaces on which other meshers fail (corpus/models/failures/README.md).
 class PeerFailures : public testing::TestWithParam<std::string> {};
 
 TEST_P(PeerFailures, AreMeshed) {

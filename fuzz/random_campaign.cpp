@@ -15,7 +15,7 @@
 #include <map>
 #include <system_error>
 
-#include "corpus/generate/random.h"
+#include "corpus/generators/random.h"
 
 extern "C" {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

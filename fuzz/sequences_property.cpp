@@ -7,7 +7,7 @@
 #include <thread>
 #include <tuple>
 
-#include "corpus/generate/generate.h"
+#include "corpus/generators/generate.h"
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"
 #include "mesher/delmesher_files.h"

@@ -2,7 +2,7 @@
 #include <bit>
 #include <cmath>
 
-#include "corpus/generate/random.h"
+#include "corpus/generators/random.h"
 #include "fuzz/feature_size.h"
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"

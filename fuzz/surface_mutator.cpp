@@ -6,11 +6,11 @@
 #include <cstring>
 #include <string>
 
-#include "corpus/generate/certify.h"
-#include "corpus/generate/edits.h"
-#include "corpus/generate/generate.h"
-#include "corpus/generate/rotate.h"
-#include "corpus/generate/twins.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/edits.h"
+#include "corpus/generators/generate.h"
+#include "corpus/generators/rotate.h"
+#include "corpus/generators/twins.h"
 #include "fuzz/entry.h"
 
 namespace tetproof::fuzz {

@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "corpus/generate/certify.h"
+#include "corpus/generators/certify.h"
 #include "fuzz/feature_size.h"
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"

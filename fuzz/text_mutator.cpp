@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/generate/random.h"
-#include "corpus/generate/shapes.h"
+#include "corpus/generators/random.h"
+#include "corpus/generators/shapes.h"
 #include "mesher/delmesher.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);

@@ -298,7 +298,7 @@ TEST(MeshesByCgal, OfCosphericalPointsPass) {
 namespace fs = std::filesystem;
 
 // TetGen places its points on the surface in doubles, and declares this fraction of the diagonal
-// (corpus/meshers.cpp). Up to that its meshes may be "deviating"; which ones are is reported.
+// (corpus/peers/meshers.cpp). Up to that its meshes may be "deviating"; which ones are is reported.
 constexpr double kTetgensDeviation = 1e-8;
 
 TEST(MeshesByTetgen, OfValidSurfacesPass) {

@@ -158,7 +158,8 @@ Table figure_8_table(const Selection& selection) {
   table.notes = {
       "Shewchuk's estimate bounds the number of tetrahedra by K V / L^3 with a small "
       "constant K, V the volume meshed and L the shortest edge; it holds if the last "
-      "column stays small as h decreases. The models are our own, made by corpus/figure8 after the "
+      "column stays small as h decreases. The models are our own, made by corpus/models/figure8 "
+      "after the "
       "paper's figure."};
   return table;
 }

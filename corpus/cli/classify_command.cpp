@@ -5,13 +5,13 @@
 #include <fstream>
 #include <map>
 
-#include "corpus/campaign.h"
-#include "corpus/classify.h"
+#include "corpus/campaigns/campaign.h"
+#include "corpus/campaigns/printable.h"
+#include "corpus/campaigns/process.h"
 #include "corpus/cli/commands.h"
-#include "corpus/csv.h"
-#include "corpus/files.h"
-#include "corpus/printable.h"
-#include "corpus/process.h"
+#include "corpus/models/classify.h"
+#include "corpus/models/csv.h"
+#include "corpus/models/files.h"
 
 namespace tetproof {
 namespace {

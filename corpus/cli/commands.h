@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "corpus/meshers.h"
+#include "corpus/peers/meshers.h"
 #include "reports/gate.h"
 
 namespace tetproof {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "corpus/cli/commands.h"
-#include "corpus/solids.h"
+#include "corpus/models/solids.h"
 #include "oracles/files/surface_file.h"
 
 namespace tetproof {

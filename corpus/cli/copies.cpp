@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "corpus/generate/certify.h"
-#include "corpus/generate/generate.h"
-#include "corpus/models.h"
-#include "corpus/printable.h"
+#include "corpus/campaigns/printable.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/generate.h"
+#include "corpus/models/models.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/files/surface_file.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "corpus/cli/commands.h"
-#include "corpus/files.h"
+#include "corpus/models/files.h"
 #include "reports/export.h"
 
 namespace tetproof {

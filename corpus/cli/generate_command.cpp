@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
 #include "corpus/cli/commands.h"
-#include "corpus/generate/generate.h"
+#include "corpus/generators/generate.h"
 #include "oracles/files/surface_file.h"
 
 namespace tetproof {

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
+#include "corpus/campaigns/process.h"
 #include "corpus/cli/commands.h"
-#include "corpus/peers.h"
-#include "corpus/process.h"
+#include "corpus/peers/peers.h"
 
 namespace tetproof {
 

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "corpus/cli/copies.h"
-#include "corpus/generate/certify.h"
-#include "corpus/generate/rotate.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/rotate.h"
 
 namespace tetproof {
 namespace {

@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <set>
 
-#include "corpus/campaign.h"
+#include "corpus/campaigns/campaign.h"
+#include "corpus/campaigns/printable.h"
+#include "corpus/campaigns/process.h"
 #include "corpus/cli/commands.h"
-#include "corpus/printable.h"
-#include "corpus/process.h"
 
 namespace tetproof {
 namespace {

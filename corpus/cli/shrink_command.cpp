@@ -5,14 +5,14 @@
 #include <cstdlib>
 #include <functional>
 
-#include "corpus/campaign.h"
+#include "corpus/campaigns/campaign.h"
+#include "corpus/campaigns/process.h"
+#include "corpus/campaigns/runnable.h"
 #include "corpus/cli/commands.h"
-#include "corpus/files.h"
-#include "corpus/generate/certify.h"
-#include "corpus/generate/generate.h"
-#include "corpus/generate/shrink.h"
-#include "corpus/process.h"
-#include "corpus/runnable.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/generate.h"
+#include "corpus/generators/shrink.h"
+#include "corpus/models/files.h"
 #include "oracles/files/surface_file.h"
 
 namespace tetproof {

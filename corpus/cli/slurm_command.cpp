@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "corpus/campaigns/plan.h"
+#include "corpus/campaigns/slurm.h"
 #include "corpus/cli/commands.h"
-#include "corpus/models.h"
-#include "corpus/plan.h"
-#include "corpus/sha256.h"
-#include "corpus/slurm.h"
+#include "corpus/models/models.h"
+#include "corpus/models/sha256.h"
 #include "reports/results.h"
 
 namespace tetproof {

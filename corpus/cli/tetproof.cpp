@@ -8,7 +8,7 @@
 
 #include "corpus/cli/commands.h"
 #include "corpus/cli/numbers.h"
-#include "corpus/meshers.h"
+#include "corpus/peers/meshers.h"
 #ifdef TETPROOF_HAS_VERIFY
 #include "oracles/verify_command.h"
 #endif

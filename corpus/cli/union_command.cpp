@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "corpus/campaign.h"
+#include "corpus/campaigns/campaign.h"
 #include "corpus/cli/commands.h"
-#include "corpus/unite/union_files.h"
+#include "corpus/union/union_files.h"
 
 namespace tetproof {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "corpus/cli/copies.h"
-#include "corpus/generate/certify.h"
-#include "corpus/generate/vary.h"
+#include "corpus/generators/certify.h"
+#include "corpus/generators/vary.h"
 
 namespace tetproof {
 namespace {

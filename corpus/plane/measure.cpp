@@ -9,8 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "corpus/campaigns/supervise/supervisor.h"
 #include "corpus/plane/bench.h"
-#include "corpus/supervise/supervisor.h"
 
 namespace tetproof::plane_bench {
 namespace {

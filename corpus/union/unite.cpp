@@ -1,0 +1,323 @@
+#include "corpus/union/unite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "corpus/union/arrangement.h"
+#include "corpus/union/flat_sides.h"
+#include "corpus/union/separate.h"
+#include "corpus/union/winding.h"
+#include "oracles/cgal/surface_opinion.h"
+
+namespace tetproof::unite {
+namespace {
+
+using delmesher::Surface;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string place(const Position& p) {
+  return "(" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")";
+}
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+double largest_coordinate(const Soup& soup) {
+  double largest = 0;
+  for (const Position& p : soup.vertices) {
+    for (const double x : p) largest = std::max(largest, std::fabs(x));
+  }
+  return largest;
+}
+
+double diagonal(const Soup& soup) {
+  Position low = soup.vertices.front(), high = low;
+  for (const Position& p : soup.vertices) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+// Points that triangles were cut at: where sides cross planes beside triangles, there are more.
+std::uint64_t new_corners(const Points& points, const std::vector<Piece>& pieces) {
+  std::vector<bool> seen(points.size(), false);
+  std::uint64_t count = 0;
+  for (const Piece& piece : pieces) {
+    for (const Index v : piece.corners) {
+      count += !seen[v] && !points.is_given(v) ? 1 : 0;
+      seen[v] = true;
+    }
+  }
+  return count;
+}
+
+class Uniter {
+ public:
+  explicit Uniter(const UnionOptions& options) : options_(options), poll_(options.go_on) {}
+
+  UnionResult run(const Surface& surface);
+
+ private:
+  // Rounding may push points through triangles that are closer than that. Each further round moves
+  // new points only, and fewer of them. From the third on they go to a grid that becomes coarser,
+  // so that points near each other become one.
+  static constexpr int kRounds = 12, kNearest = 2;
+
+  bool take(const Surface& surface);
+  void turn_if_inside_out();
+  bool unite_pieces();
+  bool cut_and_round(const std::vector<MeetingPair>& pairs);
+  bool is_inside(int winding) const {
+    return options_.inside == Inside::positive ? winding > 0 : winding != 0;
+  }
+  std::vector<Piece> kept_pieces(const Arrangement& arrangement);
+  Surface rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces);
+  double grid() const;
+  bool move_apart(const std::string& where);
+  void judge();
+  void ask_others() const;
+  bool fail(UnionCode code, std::string message) {
+    result_.code = code;
+    result_.message = std::move(message);
+    return false;
+  }
+  void tell(std::uint64_t count, const char* one, const char* many) {
+    if (count > 0) result_.done.push_back(counted(count, one, many));
+  }
+  void tell_arrangement();
+  void tell_result();
+
+  const UnionOptions& options_;
+  Poll poll_;
+  Soup soup_;
+  UnionResult result_;
+};
+
+bool Uniter::take(const Surface& surface) {
+  if (const std::string defect = defect_of_lists(surface); !defect.empty()) {
+    return fail(UnionCode::unsound, defect);
+  }
+  soup_ = soup_of(surface);
+  UnionCounts& counts = result_.counts;
+  counts.welded = soup_.welded;
+  counts.degenerate = soup_.degenerate;
+  tell(counts.welded, "vertex welded to another at the same place",
+       "vertices welded to others at the same place");
+  tell(counts.degenerate, "triangle without area removed", "triangles without area removed");
+  turn_if_inside_out();
+  counts.bodies_before = count_bodies(soup_.triangles);
+  counts.volume_before = volume(soup_);
+  return true;
+}
+
+void Uniter::turn_if_inside_out() {
+  if (volume(soup_) >= 0) return;
+  for (Triangle& t : soup_.triangles) std::swap(t[1], t[2]);
+  result_.done.emplace_back("all triangles turned round: the surface was inside out");
+}
+
+std::vector<Piece> Uniter::kept_pieces(const Arrangement& arrangement) {
+  const std::vector<int> windings = windings_in_front(arrangement, poll_);
+  std::vector<Piece> kept;
+  for (std::size_t i = 0; i < windings.size(); ++i) {
+    Piece piece = arrangement.pieces[i];
+    const bool front = is_inside(windings[i]), back = is_inside(windings[i] + piece.times);
+    if (std::min(windings[i], windings[i] + piece.times) < 0) ++result_.counts.inside_out;
+    if (front == back) continue;
+    if (front) std::swap(piece.corners[1], piece.corners[2]);
+    piece.times = 1;
+    kept.push_back(piece);
+  }
+  return kept;
+}
+
+double Uniter::grid() const {
+  const int coarser = result_.counts.rounds - kNearest;
+  if (coarser <= 0) return 0;
+  constexpr int kDigits = 52;
+  return std::ldexp(1, std::ilogb(largest_coordinate(soup_)) - kDigits + 2 * coarser);
+}
+
+Surface Uniter::rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces) {
+  const Points& points = arrangement.points;
+  Surface surface;
+  for (Index i = 0; i < points.size(); ++i) surface.vertices.push_back(points.approximate(i));
+  std::vector<bool> done(points.size(), false);
+  double largest = 0;
+  for (const Piece& piece : pieces) {
+    poll_();
+    for (const Index v : piece.corners) {
+      if (done[v] || points.is_given(v)) continue;
+      done[v] = true;
+      const Position at = points.rounded(v, grid());
+      surface.vertices[v] = at;
+      const auto off = points[v] - Exact::Point_3(at[0], at[1], at[2]);
+      largest = std::max(largest, std::sqrt(CGAL::to_double(off.squared_length())));
+    }
+    surface.triangles.push_back(piece.corners);
+    surface.labels.push_back(soup_.labels[piece.parent]);
+  }
+  result_.counts.largest_move += largest;
+  return surface;
+}
+
+bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
+  const Arrangement arrangement = arrange(soup_, pairs, poll_);
+  UnionCounts& counts = result_.counts;
+  const bool first = counts.rounds++ == 0;
+  if (const OpenEdges open = find_open_edges(arrangement.pieces); open.count > 0) {
+    return fail(
+        UnionCode::unsound,
+        "the surface is open, or triangles disagree about the outside, at " +
+            counted(open.count, "edge", "edges") + ", the first at " +
+            place(arrangement.points.approximate(open.place)) +
+            ": no union; delmesher repair turns triangles round, with --fill it closes holes");
+  }
+  std::vector<Piece> kept = kept_pieces(arrangement);
+  const std::size_t dropped = arrangement.pieces.size() - kept.size();
+  counts.flat_vertices += restore_flat_sides(soup_, arrangement.points, kept, poll_);
+  if (find_open_edges(kept).count > 0) throw InternalError("the union is open");
+  if (first) {
+    counts.pairs = pairs.size();
+    counts.coplanar_pairs = static_cast<std::uint64_t>(std::count_if(
+        pairs.begin(), pairs.end(), [](const MeetingPair& pair) { return pair.coplanar; }));
+    counts.cut = arrangement.cut;
+    counts.new_points = new_corners(arrangement.points, arrangement.pieces);
+    counts.dropped = dropped;
+    tell_arrangement();
+  }
+  soup_ = soup_of(rounded(arrangement, kept));
+  if (soup_.triangles.empty()) return fail(UnionCode::empty, "nothing is inside");
+  return true;
+}
+
+// Until rounding has changed nothing that matters. The first round takes place in any case, for
+// bodies inside of others.
+bool Uniter::unite_pieces() {
+  while (true) {
+    const std::vector<MeetingPair> pairs = meeting_pairs(soup_, poll_);
+    if (result_.counts.rounds > 0 && pairs.empty()) return true;
+    if (result_.counts.rounds == kRounds) {
+      const MeetingPair& pair = pairs.front();
+      return fail(UnionCode::imprecise,
+                  "the union has " + counted(pairs.size(), "pair", "pairs") +
+                      " of triangles that are too close for doubles, the first at " +
+                      place(soup_.vertices[soup_.triangles[pair.a][0]]));
+    }
+    if (!cut_and_round(pairs)) return false;
+  }
+}
+
+void Uniter::tell_arrangement() {
+  const UnionCounts& counts = result_.counts;
+  if (counts.pairs > 0) {
+    result_.done.push_back(
+        counted(counts.pairs, "pair of triangles meets", "pairs of triangles meet") + " (" +
+        std::to_string(counts.coplanar_pairs) +
+        " in one plane): " + counted(counts.cut, "triangle", "triangles") + " cut, " +
+        counted(counts.new_points, "new point", "new points"));
+  }
+  tell(counts.dropped, "piece dropped, which is not between inside and outside",
+       "pieces dropped, which are not between inside and outside");
+  if (counts.inside_out > 0 && options_.inside == Inside::positive) {
+    result_.done.push_back("some parts are inside out (" +
+                           counted(counts.inside_out, "piece", "pieces") +
+                           "), and taken for hollow; --nonzero takes them for solid");
+  }
+}
+
+void Uniter::tell_result() {
+  const UnionCounts& counts = result_.counts;
+  tell(counts.flat_vertices, "vertex within a flat side or a straight edge dropped",
+       "vertices within flat sides and straight edges dropped");
+  result_.done.push_back(counted(counts.bodies_before, "body", "bodies") + " of volume " +
+                         number(counts.volume_before) + " became " +
+                         std::to_string(counts.bodies_after) + " of " +
+                         number(counts.volume_after));
+  if (counts.new_points == 0 && counts.largest_move == 0) return;
+  result_.done.push_back(
+      "new points moved by at most " + number(counts.largest_move) + " by rounding" +
+      (counts.rounds > 1 ? ", in " + std::to_string(counts.rounds) + " rounds" : ""));
+}
+
+// Other libraries have the last word.
+void Uniter::ask_others() const {
+  const oracles::Polyhedron polyhedron = {soup_.vertices, soup_.triangles, soup_.labels, {}};
+  for (const oracles::SurfaceOpinion& opinion :
+       {oracles::cgal_surface_opinion(polyhedron), oracles::openmesh_surface_opinion(polyhedron)}) {
+    if (!opinion.valid()) throw InternalError("the union is not valid: " + opinion.reason);
+  }
+}
+
+bool Uniter::move_apart(const std::string& where) {
+  const double farthest = options_.separate * diagonal(soup_);
+  const Separation separation = separate(soup_, farthest, poll_);
+  if (!separation.done) {
+    return fail(UnionCode::inseparable, where + "; they could not be moved apart by at most " +
+                                            number(farthest) + " at " + place(separation.place));
+  }
+  UnionCounts& counts = result_.counts;
+  counts.halved_edges = separation.halved;
+  counts.copies = separation.copies;
+  counts.largest_separation = separation.largest_move;
+  result_.done.push_back(where);
+  tell(separation.halved, "edge halved for that", "edges halved for that");
+  result_.done.push_back(
+      "moved apart there: " + counted(separation.copies, "copy of a vertex", "copies of vertices") +
+      ", each by at most " + number(separation.largest_move) + " (allowed: " + number(farthest) +
+      ")");
+  return true;
+}
+
+void Uniter::judge() {
+  UnionCounts& counts = result_.counts;
+  const Touching touching = find_touching(soup_.triangles);
+  counts.touching_edges = touching.edges;
+  counts.touching_vertices = touching.vertices;
+  const bool touches = touching.place != kNone;
+  const std::string where =
+      !touches ? ""
+               : "parts of the union touch at " + counted(touching.edges, "edge", "edges") +
+                     " and " + counted(touching.vertices, "more vertex", "more vertices") +
+                     ", the first at " + place(soup_.vertices[touching.place]);
+  if (touches && options_.separate > 0 && !move_apart(where)) return;
+  counts.bodies_after = count_bodies(soup_.triangles);
+  counts.volume_after = volume(soup_);
+  tell_result();
+  result_.surface = surface_of(soup_);
+  if (!touches || options_.separate > 0) {
+    ask_others();
+    return;
+  }
+  fail(UnionCode::touching, where + ": it is not manifold there, and is not meshed as it is");
+}
+
+UnionResult Uniter::run(const Surface& surface) {
+  try {
+    poll_();
+    if (take(surface) && unite_pieces()) judge();
+  } catch (const Stopped&) {
+    fail(UnionCode::stopped, "interrupted");
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+UnionResult unite(const Surface& surface, const UnionOptions& options) {
+  return Uniter(options).run(surface);
+}
+
+}  // namespace tetproof::unite
