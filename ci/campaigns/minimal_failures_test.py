@@ -33,7 +33,7 @@ class Kinds(unittest.TestCase):
     def test_families_are_names_without_numbers(self):
         self.assertEqual(minimal.family_of("d/ulp_parts-4-13.off"), "ulp_parts")
         self.assertEqual(minimal.family_of("32770-2.off"), "32770-2")
-        self.assertEqual([minimal.source_of(name) for name in ("d/fan-4-13.off", "32770-2.off")], ["family `fan`", "32770-2"])
+        self.assertEqual([minimal.source_of(name) for name in ("d/fan-4-13.off", "32770-2.off")], ["`fan`", "32770-2"])
 
     def test_every_kind_comes_before_a_second_one(self):
         runs = [run("a-1-%d.off" % i, size=i) for i in range(5)] + [run("b-1-0.off", "crash", "SIGSEGV", 90), run("b-1-1.off", size=9)]
@@ -71,7 +71,7 @@ class MakingSmall(unittest.TestCase):
         return minimal.make_small(harness, "peer", run(name, reason="exit 1: no, 12"), self.scratch.name)
 
     def test_what_lasts_is_kept(self):
-        self.assertEqual(self.make(StandIn("rejected")), "| `fan_refused` | 4 | family `fan` | rejected: exit 1: no, 7 |")
+        self.assertEqual(self.make(StandIn("rejected")), "| `fan_refused` | 4 | `fan` | rejected: exit 1: no, 7 |")
         with open(os.path.join(self.scratch.name, "fan_refused.off"), encoding="utf-8") as stream:
             self.assertEqual(stream.read().split("\n"),
                              TETRAHEDRON[:1] + ["# what tetproof shrink left of fan-1-2"] + TETRAHEDRON[1:] + [""])
