@@ -25,7 +25,7 @@ valarray variant vector version""".split())
 # (mesher/delmesher/). The stages never include each other, nor a header of the root. What stands between stages
 # (enrich), what they share in a run (run), what is told of all of them (results) and what is decided about them
 # (policies) knows those before; only the drivers (pipeline.cpp, plane_pipeline.cpp) know all.
-FOUNDATION = ("base", "arithmetic", "predicates", "geometry", "surface", "delaunay")
+FOUNDATION = ("base", "arithmetic", "predicates", "geometry", "surface", "delaunay", "tetmesh")
 LAYERS = {
     "base": (),
     "arithmetic": ("base",),
@@ -33,6 +33,7 @@ LAYERS = {
     "geometry": ("base", "arithmetic", "predicates"),
     "surface": ("base", "arithmetic", "predicates", "geometry"),
     "delaunay": ("base", "arithmetic", "predicates", "geometry"),
+    "tetmesh": ("base", "arithmetic", "predicates", "geometry", "surface", "delaunay"),
     "chamfer": FOUNDATION,
     "refine": FOUNDATION,
     "cdt": FOUNDATION,

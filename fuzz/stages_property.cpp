@@ -13,8 +13,8 @@
 #include "mesher/enrich/enrichment.h"
 #include "mesher/geometry/box_tree.h"
 #include "mesher/improve/improve.h"
-#include "mesher/improve/mesh_in_order.h"
 #include "mesher/improve/quality.h"
+#include "mesher/tetmesh/numbering.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
@@ -130,7 +130,7 @@ delmesher::cdt::CdtInput with_volume_points(const Surface& surface, Stages& s) {
   return input;
 }
 
-std::vector<std::uint8_t> used_points(const delmesher::improve::ImproveMesh& mesh,
+std::vector<std::uint8_t> used_points(const delmesher::tetmesh::ConformingMesh& mesh,
                                       const Stages& s) {
   std::vector<std::uint8_t> used(s.points.size(), 0);
   for (const auto& t : mesh.tetrahedra) {
@@ -141,26 +141,18 @@ std::vector<std::uint8_t> used_points(const delmesher::improve::ImproveMesh& mes
 
 // The tetrahedra with their vertices in the order in which the improvement takes and delivers them:
 // what doubles tell of one that is flat but for roundings depends on it.
-delmesher::improve::ImproveMesh as_measured(const delmesher::improve::ImproveMesh& given,
-                                            const Stages& s) {
+delmesher::tetmesh::ConformingMesh as_measured(const delmesher::tetmesh::ConformingMesh& given,
+                                               const Stages& s) {
   const auto point = vertices_in_order(given, s.points);
-  const delmesher::improve::WorkMesh work = work_mesh(given, point, s.points.size());
-  delmesher::improve::ImproveMesh mesh{{}, {}, given.boundary};
-  for (delmesher::base::TetId t = 0; t < work.slots(); ++t) {
-    if (!work.alive(t)) continue;
-    const auto& v = work.tet(t);
-    mesh.tetrahedra.push_back({point[v[0]], point[v[1]], point[v[2]], point[v[3]]});
-    mesh.region.push_back(work.region(t));
-  }
-  return mesh;
+  return mesh_of(topology_of(given, point, s.points.size()), point);
 }
 
 // The worst quality of the tetrahedra inside, as they will be written.
-delmesher::improve::Quality worst_inside(const delmesher::improve::ImproveMesh& mesh,
+delmesher::improve::Quality worst_inside(const delmesher::tetmesh::ConformingMesh& mesh,
                                          const Stages& s) {
   delmesher::improve::Quality worst = delmesher::improve::kNotCounted;
   for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
-    if (mesh.region[n] == delmesher::improve::kOutside) continue;
+    if (mesh.region[n] == delmesher::tetmesh::kOutside) continue;
     const auto& t = mesh.tetrahedra[n];
     const auto at = [&](int i) { return s.points.nearest(t[i]); };
     worst = worse(worst, delmesher::improve::quality(at(0), at(1), at(2), at(3)));
@@ -170,7 +162,7 @@ delmesher::improve::Quality worst_inside(const delmesher::improve::ImproveMesh& 
 
 // The faces fit, the tetrahedra are positive on exact coordinates, and no vertex of the surface is
 // lost.
-Finding is_sound(const delmesher::improve::ImproveMesh& mesh, Stages& s) {
+Finding is_sound(const delmesher::tetmesh::ConformingMesh& mesh, Stages& s) {
   for (const auto& t : mesh.tetrahedra) {
     if (s.predicates.orient3d(t[0], t[1], t[2], t[3]) <= 0)
       return "improve orientation: not positive";
@@ -179,7 +171,7 @@ Finding is_sound(const delmesher::improve::ImproveMesh& mesh, Stages& s) {
   for (std::size_t v = 0; v < s.topology.vertex_half_edge.size(); ++v) {
     if (used[v] == 0) return "improve vertices: one of the surface is in no tetrahedron";
   }
-  delmesher::improve::WorkMesh(mesh.tetrahedra, mesh.region, mesh.boundary, s.points.size())
+  delmesher::tetmesh::MeshTopology(mesh.tetrahedra, mesh.region, mesh.boundary, s.points.size())
       .validate();
   return {};
 }
@@ -197,12 +189,10 @@ Finding improvement_holds(const Surface& surface) {
     const delmesher::cdt::CdtInput input = with_volume_points(surface, s);
     const delmesher::cdt::CdtResult cdt =
         constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
-    delmesher::improve::ImproveMesh given{
-        cdt.tetrahedra, {cdt.inside.begin(), cdt.inside.end()}, cdt.boundary};
-    const auto before = worst_inside(as_measured(given, s), s);
+    const auto before = worst_inside(as_measured(cdt.mesh, s), s);
     const delmesher::improve::ImproveOptions options;
     const auto result =
-        improve(std::move(given), &s.topology, {}, options, s.points, s.predicates, s.control);
+        improve(cdt.mesh, &s.topology, {}, options, s.points, s.predicates, s.control);
     if (Finding f = is_sound(result.mesh, s); !f.empty()) return f;
     const auto after = worst_inside(result.mesh, s);
     const float flattest = squared_sine(delmesher::improve::kFlattestDihedral);
@@ -226,7 +216,7 @@ Finding recovery_holds(const Surface& surface) {
         constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
     if (result.counters.facet_restarts > 0) return "recovery theory: a facet failed at first";
     std::vector<std::uint8_t> used(s.points.size(), 0);
-    for (const auto& t : result.tetrahedra) {
+    for (const auto& t : result.mesh.tetrahedra) {
       for (const auto v : t) used[v] = 1;
     }
     const bool all = std::all_of(input.vertices.begin(), input.vertices.end(),

@@ -47,19 +47,19 @@ std::string sizes_defect(const TetMesh& mesh) {
 // improvement, since every tetrahedron counts.
 struct Regions {
   explicit Regions(const TetMesh& mesh) {
-    std::map<Part, improve::RegionId> ids;
+    std::map<Part, tetmesh::RegionId> ids;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
       const Part region = {mesh.inside.empty() ? std::uint8_t{1} : mesh.inside[t],
                            mesh.regions.empty() ? 0 : mesh.regions[t]};
       const auto [entry, is_new] =
-          ids.try_emplace(region, static_cast<improve::RegionId>(of_id.size()));
+          ids.try_emplace(region, static_cast<tetmesh::RegionId>(of_id.size()));
       if (is_new) of_id.push_back(region);
       of_tetrahedron.push_back(entry->second);
     }
   }
 
-  std::vector<Part> of_id = {{0, 0}};  // improve::kOutside is none of them
-  std::vector<improve::RegionId> of_tetrahedron;
+  std::vector<Part> of_id = {{0, 0}};  // tetmesh::kOutside is none of them
+  std::vector<tetmesh::RegionId> of_tetrahedron;
 };
 
 double diagonal(const std::vector<Vec3>& vertices) {
@@ -82,7 +82,7 @@ MeshStatistics statistics_of(const TetMesh& mesh, Session& s) {
 
 // The vertices in use in the order in which they were given, then new ones, and tetrahedra of them.
 // `became`: the present point of each given vertex.
-void take_tetrahedra(improve::ImproveMesh improved, const std::vector<VertexId>& became,
+void take_tetrahedra(tetmesh::ConformingMesh improved, const std::vector<VertexId>& became,
                      const Regions& regions, const PointStore& points, TetMesh& mesh,
                      std::vector<std::uint32_t>& number) {
   std::vector<std::uint8_t> used(points.size(), 0);
@@ -103,7 +103,7 @@ void take_tetrahedra(improve::ImproveMesh improved, const std::vector<VertexId>&
   for (auto& t : mesh.tetrahedra) {
     for (VertexId& v : t) v = number[v];
   }
-  for (const improve::RegionId id : improved.region) {
+  for (const tetmesh::RegionId id : improved.region) {
     mesh.inside.push_back(regions.of_id[id].first);
     mesh.regions.push_back(regions.of_id[id].second);
   }
@@ -115,7 +115,7 @@ std::string counted(std::uint64_t n, const char* one, const char* many) {
 
 // The conforming mesh that was given, turned if all of it was negative. Warnings tell of oddities.
 Status check(const TetMesh& given, const Regions& regions, Session& s, Result& result,
-             improve::ImproveMesh& mesh) {
+             tetmesh::ConformingMesh& mesh) {
   improve::CheckedMesh checked = improve::check_given(
       {given.vertices, given.tetrahedra, regions.of_tetrahedron, given.boundary}, s.control);
   if (!checked.defect.empty()) return {StatusCode::invalid_mesh, std::move(checked.defect)};
@@ -133,7 +133,7 @@ Status check(const TetMesh& given, const Regions& regions, Session& s, Result& r
 }
 
 // The statistics of the mesh as given, without vertices of no tetrahedron.
-void measure_given(const TetMesh& given, const improve::ImproveMesh& checked,
+void measure_given(const TetMesh& given, const tetmesh::ConformingMesh& checked,
                    const Regions& regions, Session& s, Result& result) {
   std::vector<VertexId> same(given.vertices.size());
   for (VertexId v = 0; v < same.size(); ++v) same[v] = v;
@@ -179,7 +179,7 @@ Status improve_given(const TetMesh& given, Session& s, Result& result) {
     return {StatusCode::invalid_mesh, std::move(defect)};
   }
   const Regions regions(given);
-  improve::ImproveMesh mesh;
+  tetmesh::ConformingMesh mesh;
   if (Status status = check(given, regions, s, result, mesh); !status.ok()) return status;
   measure_given(given, mesh, regions, s, result);
 

@@ -20,8 +20,8 @@
 #include "mesher/policies/planes.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
-#include "mesher/results/improvement.h"
 #include "mesher/results/recorder.h"
+#include "mesher/results/rounding_input.h"
 #include "mesher/results/units.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
@@ -136,66 +136,65 @@ improve::ImproveOptions improve_options(Region region, const Session& s) {
 }
 
 // Fewer and better tetrahedra on the same surface (section 8.3).
-improve::ImproveResult improve_cdt(cdt::CdtResult& cdt, Session& s,
-                                   const improve::Sparing& sparing = {}) {
+improve::ImproveResult improve_final(ConformingMesh& mesh, Session& s,
+                                     const improve::Sparing& sparing = {}) {
   improve::ImproveOptions options = improve_options(s.options.region, s);
   options.sparing = sparing;
-  improve::ImproveResult result = improve::improve(improvable(cdt), &s.topology, s.given, options,
+  improve::ImproveResult result = improve::improve(std::move(mesh), &s.topology, s.given, options,
                                                    s.points, s.predicates, s.control);
-  put_in(std::move(result.mesh), cdt);
-  follow(result.became, cdt);
+  mesh = std::move(result.mesh);
   return result;
 }
 
 // What has come back may take a tenth more tetrahedra than the mesh of the stand-in had; beyond
 // that, points on the edges that came back are spared.
 void improve_as_given(std::size_t before, const std::vector<std::uint8_t>& is_flat,
-                      cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
+                      ConformingMesh& mesh, Session& s, Recorder& recorder) {
   std::vector<std::uint8_t> returned = is_flat;  // on the stand-in
   for (std::size_t e = 0; e < returned.size(); ++e) {
     if (s.topology.edge_is_flat[e] != 0) returned[e] = 0;
   }
-  recorder.spared(improve_cdt(cdt, s, {returned, before + before / 10}).spared);
+  recorder.spared(improve_final(mesh, s, {returned, before + before / 10}).spared);
 }
 
 // From the stand-in to the surface as given, with all its edges: by local operations, or, where
 // these do not get there, by another tetrahedrization with the same vertices. False if that cannot
 // be; the mesh is not to be used then.
-bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
-  const cdt::CdtResult before = cdt;
+bool put_back(ConformingMesh& mesh, Session& s, Recorder& recorder) {
+  const ConformingMesh before = mesh;
   const std::size_t points = s.points.size();
   SurfaceTopology as_given = topology_as_given(s);
   improve::DiagonalsResult entered =
-      improve::enter_diagonals(improvable(cdt), s.topology, as_given, s.given,
+      improve::enter_diagonals(std::move(mesh), s.topology, as_given, s.given,
                                improve_options(Region::hull, s), s.points, s.predicates, s.control);
-  put_in(std::move(entered.mesh), cdt);
+  mesh = std::move(entered.mesh);
   recorder.put_back(entered.diagonals, entered.missing);
-  if (entered.missing == 0 && go_back(cdt, std::move(as_given), s)) return true;
+  if (entered.missing == 0 && go_back(mesh, std::move(as_given), s)) return true;
   if (s.bounds_edges()) {  // another tetrahedrization may have longer edges
     recorder.given_up();
     return false;
   }
   s.points.truncate(points);
-  cdt = tetrahedrize_as_given(before, s);
-  if (s.options.region == Region::interior) keep_inside(cdt);
+  mesh = tetrahedrize_as_given(before, s).mesh;
+  if (s.options.region == Region::interior) keep_inside(mesh);
   recorder.tetrahedrized_anew();
   return true;
 }
 
 // Improves the final mesh; a mesh of the stand-in that goes back is improved before and after.
 // False if it cannot go back.
-bool improve_final(Planes planes, cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
+bool improve_and_go_back(Planes planes, ConformingMesh& mesh, Session& s, Recorder& recorder) {
   const bool goes_back = planes == Planes::while_refined && !s.given.empty();
   // What is outside takes time, and is in the way: of a stand-in, there are flat tetrahedra between
   // facets that are nearly in one plane.
-  if (s.options.region == Region::interior) keep_inside(cdt);
-  if (improve_cdt(cdt, s).changed) recorder.improved(cdt);
+  if (s.options.region == Region::interior) keep_inside(mesh);
+  if (improve_final(mesh, s).changed) recorder.improved(mesh);
   if (!goes_back) return true;
-  const std::size_t before = cdt.tetrahedra.size();
+  const std::size_t before = mesh.tetrahedra.size();
   const std::vector<std::uint8_t> is_flat = s.topology.edge_is_flat;
-  if (!put_back(cdt, s, recorder)) return false;
-  improve_as_given(before, is_flat, cdt, s, recorder);
-  recorder.improved(cdt);
+  if (!put_back(mesh, s, recorder)) return false;
+  improve_as_given(before, is_flat, mesh, s, recorder);
+  recorder.improved(mesh);
   return true;
 }
 
@@ -203,10 +202,10 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
                    Session& s, Recorder& recorder) {
   refined.delaunay.reset();
   s.control.enter(Phase::round);
-  MeshToWrite exact = approximate_mesh(chamfered.chamfer, refined, s);
-  output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), s.control);
+  output::RoundingResult rounded = output::round_mesh(
+      rounding_input(refined_part(chamfered.chamfer, refined, s.options.region), s), s.control);
   s.control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before
-  recorder.written(exact, std::move(rounded));
+  recorder.written(std::move(rounded));
 }
 
 Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& recorder) {
@@ -239,10 +238,10 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
   if (s.options.improve) {
     s.control.enter(Phase::improve);
     // Without a mesh: run_mesh has to run once more, without a stand-in.
-    if (!improve_final(planes, cdt, s, recorder)) return {};
+    if (!improve_and_go_back(planes, cdt.mesh, s, recorder)) return {};
   }
   s.control.enter(Phase::round);
-  round_and_record(std::move(cdt), s, recorder);
+  round_and_record(std::move(cdt.mesh), s, recorder);
   return {};
 }
 
@@ -264,7 +263,7 @@ Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
       cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
-  round_and_record(std::move(cdt), s, recorder);
+  round_and_record(std::move(cdt.mesh), s, recorder);
   return {};
 }
 

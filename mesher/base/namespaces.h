@@ -22,11 +22,16 @@ using namespace geometry;  // NOLINT(google-build-using-namespace)
 namespace delaunay {
 using namespace geometry;  // NOLINT(google-build-using-namespace)
 }
+namespace tetmesh {
+using namespace surface;   // NOLINT(google-build-using-namespace)
+using namespace delaunay;  // NOLINT(google-build-using-namespace)
+}  // namespace tetmesh
 
 // The folders that all stages share.
 namespace foundation {
 using namespace surface;   // NOLINT(google-build-using-namespace)
 using namespace delaunay;  // NOLINT(google-build-using-namespace)
+using namespace tetmesh;   // NOLINT(google-build-using-namespace)
 }  // namespace foundation
 
 namespace chamfer {

@@ -105,18 +105,19 @@ class CdtBuilder {
 
   CdtResult result(const Tetrahedrization& mesh) {
     const std::size_t count = mesh.tetrahedra();
-    result_.tetrahedra.reserve(count);
-    result_.inside.reserve(count);
-    result_.repeated_faces.reserve(count);
+    ConformingMesh& result = result_.mesh;
+    result.tetrahedra.reserve(count);
+    result.region.reserve(count);
+    result.repeated_faces.reserve(count);
     for (TetId t = 0; t < mesh.capacity(); ++t) {
       if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
       const VertexId* v = mesh.vertices(t);
-      result_.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-      result_.inside.push_back(inside_[t]);
-      result_.repeated_faces.push_back(
+      result.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
+      result.region.push_back(inside_[t] != 0 ? kInside : kOutside);
+      result.repeated_faces.push_back(
           mesh.repeated_faces(t, [&](TetId u) { return inside_[u] == inside_[t]; }));
     }
-    result_.boundary = std::move(surface_);
+    result.boundary = std::move(surface_);
     result_.steiner = std::move(steiner_);
     result_.chain.resize(topology_.edge_count());
     for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {

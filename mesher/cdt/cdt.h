@@ -13,8 +13,8 @@
 #include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/surface_face.h"
 #include "mesher/surface/topology.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::cdt {
 
@@ -57,14 +57,8 @@ struct CdtCounters {
 };
 
 struct CdtResult {
-  // Finite tetrahedra (orient3d > 0) of the convex hull of the vertices, with inside flags.
-  std::vector<std::array<VertexId, 4>> tetrahedra;
-  std::vector<std::uint8_t> inside;
-  // Per tetrahedron: which faces earlier ones have too (bits 0 to 3), and which of these are on the
-  // same side (bits 4 to 7).
-  std::vector<std::uint8_t> repeated_faces;
-  std::vector<SurfaceFace> boundary;  // tiles every facet exactly
-  std::vector<VertexId> steiner;      // points added on segments, appended to the store
+  ConformingMesh mesh;            // of the convex hull of the vertices
+  std::vector<VertexId> steiner;  // points added on segments, appended to the store
   std::vector<std::vector<VertexId>>
       chain;  // per undirected non-flat input edge: its vertices end to end
   CdtCounters counters;

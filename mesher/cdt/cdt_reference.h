@@ -67,21 +67,23 @@ inline int in_sphere(const Vector& a, const Vector& b, const Vector& c, const Ve
   return sgn(s);
 }
 
-// Everything that makes the result a constrained Delaunay tetrahedrization of the surface, or, not
-// `delaunay`, just any that conforms to it; returns a description of the first defect, or an empty
-// string.
+// Everything that makes the result a constrained Delaunay tetrahedrization of the surface, or a
+// mesh just any that conforms to it; returns a description of the first defect, or an empty string.
 class Checker {
  public:
-  Checker(const SurfaceTopology& surface, const PointStore& points, const CdtResult& result,
-          bool delaunay = true)
-      : s_(surface), r_(result), delaunay_(delaunay) {
+  Checker(const SurfaceTopology& surface, const PointStore& points, const CdtResult& result)
+      : Checker(surface, points, result.mesh) {
+    delaunay_ = &result;
+  }
+  Checker(const SurfaceTopology& surface, const PointStore& points, const ConformingMesh& mesh)
+      : s_(surface), mesh_(mesh) {
     for (VertexId v = 0; v < points.size(); ++v) x_.push_back(exact(points, v));
   }
 
   std::string run() {
     std::string what = volumes();
     if (what.empty()) what = facets();
-    if (what.empty()) what = chains();
+    if (what.empty() && delaunay_ != nullptr) what = chains();
     if (what.empty()) what = faces();
     return what;
   }
@@ -89,11 +91,11 @@ class Checker {
  private:
   std::string volumes() {
     mpq_class inside = 0, surface = 0;
-    for (std::size_t n = 0; n < r_.tetrahedra.size(); ++n) {
-      const auto& t = r_.tetrahedra[n];
+    for (std::size_t n = 0; n < mesh_.tetrahedra.size(); ++n) {
+      const auto& t = mesh_.tetrahedra[n];
       const mpq_class v = volume(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]);
       if (sgn(v) <= 0) return "tetrahedron not positive";
-      if (r_.inside[n] != 0) inside += v;
+      if (mesh_.region[n] != kOutside) inside += v;
     }
     for (const auto& t : s_.triangles) surface += dot(cross(x_[t[0]], x_[t[1]]), x_[t[2]]);
     return inside == surface ? "" : "volume inside differs from the solid's";
@@ -103,7 +105,7 @@ class Checker {
     std::vector<Vector> left(s_.facet_triangles.size(), Vector{0, 0, 0});
     for (std::size_t t = 0; t < s_.triangles.size(); ++t)
       add(left[s_.facet_of[t]], s_.triangles[t], 1);
-    for (const SurfaceFace& f : r_.boundary) {
+    for (const SurfaceFace& f : mesh_.boundary) {
       const auto& frame = s_.triangles[s_.facet_triangles[f.facet][0]];
       const Vector normal = area(x_[frame[0]], x_[frame[1]], x_[frame[2]]);
       const auto& v = f.vertices;
@@ -126,7 +128,7 @@ class Checker {
 
   std::string chains() {
     for (std::uint32_t e = 0; e < s_.edge_count(); ++e) {
-      const std::vector<VertexId>& c = r_.chain[e];
+      const std::vector<VertexId>& c = delaunay_->chain[e];
       if (s_.edge_is_flat[e] != 0) {
         if (!c.empty()) return "chain of a flat edge";
         continue;
@@ -150,15 +152,15 @@ class Checker {
   std::string faces() {
     using Key = std::array<VertexId, 3>;
     std::set<Key> constrained;
-    for (const SurfaceFace& f : r_.boundary) {
+    for (const SurfaceFace& f : mesh_.boundary) {
       Key k = f.vertices;
       std::sort(k.begin(), k.end());
       if (!constrained.insert(k).second) return "boundary face given twice";
     }
     std::map<Key, std::vector<std::array<std::size_t, 2>>> sides;
-    for (std::size_t n = 0; n < r_.tetrahedra.size(); ++n) {
+    for (std::size_t n = 0; n < mesh_.tetrahedra.size(); ++n) {
       for (std::size_t i = 0; i < 4; ++i) {
-        const auto& t = r_.tetrahedra[n];
+        const auto& t = mesh_.tetrahedra[n];
         Key k = {t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]};
         std::sort(k.begin(), k.end());
         sides[k].push_back({n, i});
@@ -169,20 +171,20 @@ class Checker {
       const bool wall = constrained.count(key) != 0;
       found += wall ? 1 : 0;
       if (list.size() > 2) return "face of three tetrahedra";
-      const bool inside = r_.inside[list[0][0]] != 0;
-      const bool beyond = list.size() == 2 && r_.inside[list[1][0]] != 0;
+      const bool inside = mesh_.region[list[0][0]] != kOutside;
+      const bool beyond = list.size() == 2 && mesh_.region[list[1][0]] != kOutside;
       if ((inside != beyond) != wall) return "wrong inside flag";
-      if (wall || list.size() == 1 || !delaunay_) continue;
-      const auto& t = r_.tetrahedra[list[0][0]];
-      const VertexId across = r_.tetrahedra[list[1][0]][list[1][1]];
+      if (wall || list.size() == 1 || delaunay_ == nullptr) continue;
+      const auto& t = mesh_.tetrahedra[list[0][0]];
+      const VertexId across = mesh_.tetrahedra[list[1][0]][list[1][1]];
       if (in_sphere(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]], x_[across]) > 0) return "not Delaunay";
     }
     return found == constrained.size() ? "" : "boundary face missing";
   }
 
   const SurfaceTopology& s_;
-  const CdtResult& r_;
-  bool delaunay_;
+  const ConformingMesh& mesh_;
+  const CdtResult* delaunay_ = nullptr;
   std::vector<Vector> x_;
 };
 

@@ -32,8 +32,8 @@ CdtResult expect_good(const Surface& surface) {
 TEST(Cdt, Cube) {
   const CdtResult result = expect_good(box(-1, 2));
   EXPECT_TRUE(result.steiner.empty());
-  EXPECT_EQ(result.boundary.size(), 12U);
-  for (const std::uint8_t inside : result.inside) EXPECT_EQ(inside, 1);
+  EXPECT_EQ(result.mesh.boundary.size(), 12U);
+  for (const RegionId region : result.mesh.region) EXPECT_EQ(region, kInside);
 }
 
 // A facet's plane is described from a vertex off it. Here the neighbours of the facet's first
@@ -54,16 +54,16 @@ TEST(Cdt, CheckerNoticesDefects) {
   const CdtResult good = model.run();
   ASSERT_EQ(model.wrong(good), "");
   CdtResult bad = good;
-  bad.inside[0] ^= 1;
+  bad.mesh.region[0] ^= 1;
   EXPECT_EQ(model.wrong(bad), "volume inside differs from the solid's");
   bad = good;
-  bad.boundary.pop_back();
+  bad.mesh.boundary.pop_back();
   EXPECT_EQ(model.wrong(bad), "facet not covered exactly");
   bad = good;
-  std::swap(bad.boundary[0].vertices[0], bad.boundary[0].vertices[1]);
+  std::swap(bad.mesh.boundary[0].vertices[0], bad.mesh.boundary[0].vertices[1]);
   EXPECT_EQ(model.wrong(bad), "face turned over");
   bad = good;
-  std::swap(bad.tetrahedra[0][0], bad.tetrahedra[0][1]);
+  std::swap(bad.mesh.tetrahedra[0][0], bad.mesh.tetrahedra[0][1]);
   EXPECT_EQ(model.wrong(bad), "tetrahedron not positive");
   bad = good;
   for (auto& chain : bad.chain) {
@@ -85,7 +85,7 @@ std::string complaint(Check&& check) {
 
 TEST(Cdt, ValidateReportsBrokenPromises) {
   Model model(box(0, 8));
-  const std::vector<SurfaceFace> surface = model.run().boundary;
+  const std::vector<SurfaceFace> surface = model.run().mesh.boundary;
   Tetrahedrization mesh(model.predicates);
   mesh.build(model.input.vertices, model.control);
   const Chains chains(model.input, model.points);
@@ -132,7 +132,7 @@ TEST(Cdt, StepsAreToldInTheirOrder) {
 // count as work.
 TEST(Cdt, ValidateLooksAtAllAndCountsNothing) {
   Model model(box(0, 8));
-  const std::vector<SurfaceFace> surface = model.run().boundary;
+  const std::vector<SurfaceFace> surface = model.run().mesh.boundary;
   Tetrahedrization mesh(model.predicates);
   mesh.build(model.input.vertices, model.control);
   const Chains chains(model.input, model.points);
@@ -335,7 +335,7 @@ TEST(Cdt, NestedCubes) {
   append(s, inside_out(box(3, 5)));
   append(s, box(20, 21));
   const CdtResult result = expect_good(s);
-  EXPECT_FALSE(result.tetrahedra.empty());
+  EXPECT_FALSE(result.mesh.tetrahedra.empty());
 }
 
 // Edges between others that run along them: the points on all of them have to lie on the same
@@ -395,8 +395,8 @@ TEST(Cdt, ScalesWithTheInput) {
       Model model(scaled);
       ASSERT_TRUE(model.valid);
       const CdtResult result = model.run();
-      EXPECT_EQ(result.tetrahedra, original.tetrahedra);
-      EXPECT_EQ(result.inside, original.inside);
+      EXPECT_EQ(result.mesh.tetrahedra, original.mesh.tetrahedra);
+      EXPECT_EQ(result.mesh.region, original.mesh.region);
     }
   }
 }
@@ -416,7 +416,7 @@ TEST(Cdt, LabelledPatches) {
   }
   const CdtResult result = expect_good(s);
   std::set<FacetId> facets;
-  for (const SurfaceFace& f : result.boundary) facets.insert(f.facet);
+  for (const SurfaceFace& f : result.mesh.boundary) facets.insert(f.facet);
   EXPECT_GT(facets.size(), 6U);
 }
 
@@ -445,14 +445,14 @@ TEST(Cdt, SolidIsFilledInOneWayOnly) {
     ASSERT_TRUE(model.valid);
     const CdtResult result = model.run();
     std::set<Tetrahedron> expected;
-    for (std::size_t n = 0; n < result.tetrahedra.size(); ++n) {
-      Tetrahedron t = result.tetrahedra[n];
+    for (std::size_t n = 0; n < result.mesh.tetrahedra.size(); ++n) {
+      Tetrahedron t = result.mesh.tetrahedra[n];
       std::sort(t.begin(), t.end());
-      if (result.inside[n] != 0) expected.insert(t);
+      if (result.mesh.region[n] != kOutside) expected.insert(t);
     }
     std::vector<Triangle> faces;
     std::set<VertexId> used;
-    for (const SurfaceFace& f : result.boundary) {
+    for (const SurfaceFace& f : result.mesh.boundary) {
       faces.push_back(f.vertices);
       used.insert(f.vertices.begin(), f.vertices.end());
     }
@@ -479,7 +479,7 @@ TEST(Cdt, SolidIsFilledInOneWayOnly) {
 
 std::size_t used_vertices(const CdtResult& result) {
   std::set<VertexId> used;
-  for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
+  for (const auto& t : result.mesh.tetrahedra) used.insert(t.begin(), t.end());
   return used.size();
 }
 

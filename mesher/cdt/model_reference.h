@@ -44,14 +44,14 @@ struct Model {
   bool valid = false;
 };
 
-inline std::set<VertexId> vertices(const CdtResult& mesh) {
+inline std::set<VertexId> vertices(const ConformingMesh& mesh) {
   std::set<VertexId> used;
   for (const auto& t : mesh.tetrahedra) used.insert(t.begin(), t.end());
   return used;
 }
 
 // Six times the volume of all tetrahedra, exactly.
-inline mpq_class volume(const PointStore& points, const CdtResult& mesh) {
+inline mpq_class volume(const PointStore& points, const ConformingMesh& mesh) {
   mpq_class sum = 0;
   for (const auto& t : mesh.tetrahedra) {
     rational::Vector x[4];

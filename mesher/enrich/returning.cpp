@@ -63,7 +63,7 @@ class MovedTriangles {
 
 class Returning {
  public:
-  Returning(const cdt::CdtResult& mesh, const SurfaceTopology& stand_in, const PointStore& refined,
+  Returning(const ConformingMesh& mesh, const SurfaceTopology& stand_in, const PointStore& refined,
             const SurfaceTopology& as_given, PointStore& points, Predicates& predicates,
             Control& control)
       : mesh_(mesh),
@@ -216,7 +216,7 @@ class Returning {
     }
   }
 
-  const cdt::CdtResult& mesh_;
+  const ConformingMesh& mesh_;
   const SurfaceTopology& stand_in_;
   const PointStore& refined_;
   const SurfaceTopology& as_given_;
@@ -231,7 +231,7 @@ class Returning {
 
 }  // namespace
 
-cdt::CdtInput input_as_given(const cdt::CdtResult& mesh, const SurfaceTopology& stand_in,
+cdt::CdtInput input_as_given(const ConformingMesh& mesh, const SurfaceTopology& stand_in,
                              const PointStore& refined, const SurfaceTopology& as_given,
                              PointStore& points, Predicates& predicates, Control& control) {
   return Returning(mesh, stand_in, refined, as_given, points, predicates, control).run();

@@ -14,7 +14,7 @@ namespace delmesher::enrich {
 // the surface as given is put on it; the others are put inside a triangle as given, or left out if
 // they would not be strictly inside its facet. Points in the volume that the vertices, when they go
 // back, may have passed over are left out, and of points that coincide all but one.
-cdt::CdtInput input_as_given(const cdt::CdtResult& mesh, const SurfaceTopology& stand_in,
+cdt::CdtInput input_as_given(const ConformingMesh& mesh, const SurfaceTopology& stand_in,
                              const PointStore& refined, const SurfaceTopology& as_given,
                              PointStore& points, Predicates& predicates, Control& control);
 

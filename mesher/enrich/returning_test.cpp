@@ -93,7 +93,7 @@ struct Case {
   Predicates predicates{refined}, predicates_as_given{points};
   SurfaceTopology stand_in, as_given;
   std::uint32_t bent = kNone;  // the edge that comes back
-  cdt::CdtResult mesh;
+  ConformingMesh mesh;
 };
 
 bool contains(const std::vector<VertexId>& list, VertexId v) {

@@ -55,7 +55,7 @@ void Collapse::find_targets(VertexId v) {
 
 // The edges from v on the surface: each twice, with the facets of the faces beside it.
 void Collapse::find_edges_on_surface(VertexId v) {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   edges_.clear();
   for (const TetId t : star_) {
     if (!mesh.inside(t)) continue;

@@ -8,10 +8,10 @@
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/improve/edge_removal.h"
-#include "mesher/improve/mesh_in_order.h"
 #include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
 #include "mesher/surface/facet_locator.h"
+#include "mesher/tetmesh/numbering.h"
 
 namespace delmesher::improve {
 namespace {
@@ -142,7 +142,7 @@ class Entry {
   // The faces of the facet at a vertex, as its other two vertices, counter-clockwise.
   std::vector<std::array<VertexId, 2>> faces_at(VertexId v) {
     std::vector<std::array<VertexId, 2>> faces;
-    const WorkMesh& mesh = state_.mesh;
+    const MeshTopology& mesh = state_.mesh;
     mesh.star(v, star_);
     for (const TetId t : star_) {
       for (int k = 0; k < 4; ++k) {
@@ -367,7 +367,7 @@ class Entry {
   // Is face i of t between two tetrahedra of the cavity, or one of the facet with both sides, as
   // far as there are two, in it?
   bool is_within_cavity(TetId t, int i) const {
-    const WorkMesh& mesh = state_.mesh;
+    const MeshTopology& mesh = state_.mesh;
     const TetId next = mesh.neighbor(t, i);
     const bool both = std::ranges::find(ring_, next) != ring_.end();
     if (mesh.facet(t, i) == diagonal_.facet) return both || next == kNone;
@@ -516,7 +516,7 @@ class Handover {
 
 }  // namespace
 
-DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_in,
+DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& stand_in,
                                 const SurfaceTopology& as_given, std::span<const Vec3> given,
                                 const ImproveOptions& options, PointStore& points,
                                 Predicates& predicates, Control& control) {
@@ -525,7 +525,7 @@ DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_i
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
   std::vector<VertexId> number(points.size(), kNone);
   for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
-  State state(work_mesh(std::move(mesh), point, points.size()), point, &stand_in, given, points,
+  State state(topology_of(std::move(mesh), point, points.size()), point, &stand_in, given, points,
               predicates, goals);
   Entry entry(state, number, stand_in, as_given, predicates, control);
   std::vector<Diagonal> missing = entry.diagonals();
@@ -539,7 +539,7 @@ DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_i
   result.missing = missing.size();
   if (result.missing > 0) return result;
   const bool anchored = entry.anchor_all();
-  result.mesh = result_of(state);
+  result.mesh = mesh_of(state.mesh, state.point_of_vertices());
   Handover handover(stand_in, as_given, points);
   if (!(anchored && handover.run(result.mesh.boundary))) result.missing = result.diagonals;
   return result;

@@ -18,7 +18,7 @@
 namespace delmesher::improve {
 
 struct DiagonalsResult {
-  ImproveMesh mesh;             // faces have the facets of the surface as given
+  ConformingMesh mesh;          // faces have the facets of the surface as given
   std::uint64_t diagonals = 0;  // edges of the surface as given within a facet of the stand-in
   // How many of them find no place; all if a point finds none in its facet. Unless it is 0, the
   // mesh is empty or of no use.
@@ -30,7 +30,7 @@ struct DiagonalsResult {
 // given by a triangle of that facet, so that moving the vertices of the surface to where they were
 // given puts the faces onto the surface as given. Quality is not asked for. New points are appended
 // to the store. Deterministic; throws Stopped when the control says so.
-DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_in,
+DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& stand_in,
                                 const SurfaceTopology& as_given, std::span<const Vec3> given,
                                 const ImproveOptions& options, PointStore& points,
                                 Predicates& predicates, Control& control);

@@ -35,31 +35,21 @@ struct Case {
       : model(surface, 2 * flatness(surface)) {
     EXPECT_TRUE(model.valid);
     if (density > 0) cdt::test_models::enrich(model, density, seed);
-    result = model.run();
+    mesh = model.run().mesh;
     given_points = std::make_unique<PointStore>();
     Predicates predicates(*given_points);
     as_given = build_topology(model.surface, *given_points, predicates);
   }
 
-  ImproveMesh taken() {
-    return {result.tetrahedra, {result.inside.begin(), result.inside.end()}, result.boundary};
-  }
-  void give_back(const ImproveMesh& mesh) {
-    result.tetrahedra = mesh.tetrahedra;
-    result.inside.assign(mesh.region.begin(), mesh.region.end());
-    result.boundary = mesh.boundary;
-    result.repeated_faces.clear();
-  }
-  DiagonalsResult enter(const std::function<void(ImproveMesh&)>& change = {}) {
+  DiagonalsResult enter(const std::function<void(ConformingMesh&)>& change = {}) {
     const ImproveOptions options{.region = Region::hull};
-    ImproveResult improved = improve(taken(), &model.topology, model.surface.vertices, options,
+    ImproveResult improved = improve(mesh, &model.topology, model.surface.vertices, options,
                                      model.points, model.predicates, model.control);
     if (change) change(improved.mesh);
-    give_back(improved.mesh);
     DiagonalsResult entered =
         enter_diagonals(std::move(improved.mesh), model.topology, as_given, model.surface.vertices,
                         options, model.points, model.predicates, model.control);
-    give_back(entered.mesh);
+    mesh = entered.mesh;
     return entered;
   }
   // What is wrong with it as a mesh of the surface as given, by rational arithmetic.
@@ -73,34 +63,11 @@ struct Case {
         points.add(model.points.definition(v));
       }
     }
-    find_chains();
-    return cdt::rational::Checker(as_given, points, result, false).run();
-  }
-  // By the definitions of the vertices.
-  void find_chains() {
-    std::set<VertexId> used;
-    for (const SurfaceFace& face : result.boundary) {
-      used.insert(face.vertices.begin(), face.vertices.end());
-    }
-    result.chain.assign(as_given.edge_count(), {});
-    for (std::uint32_t e = 0; e < as_given.edge_count(); ++e) {
-      if (as_given.edge_is_flat[e] != 0) continue;
-      const auto [a, b] = as_given.edge_vertices(e);
-      std::map<double, VertexId> inside;  // by how near they are to b
-      for (const VertexId v : used) {
-        const PointDefinition d = given_points->definition(v);
-        if (d.kind != PointKind::on_segment) continue;
-        if (d.corner[0] == b && d.corner[1] == a) inside[d.u] = v;
-        if (d.corner[0] == a && d.corner[1] == b) inside[1 - d.u] = v;
-      }
-      result.chain[e].push_back(a);
-      for (const auto& [t, v] : inside) result.chain[e].push_back(v);
-      result.chain[e].push_back(b);
-    }
+    return cdt::rational::Checker(as_given, points, mesh).run();
   }
 
   Model model;
-  cdt::CdtResult result;
+  ConformingMesh mesh;
   std::unique_ptr<PointStore> given_points;
   SurfaceTopology as_given;
 };
@@ -155,7 +122,7 @@ std::uint32_t other_triangle(const Case& c, const PointDefinition& d, FacetId fa
 }
 
 // Puts points in the place of the mesh's that are given by such triangles. How many?
-std::uint64_t give_by_other_triangles(Case& c, ImproveMesh& mesh) {
+std::uint64_t give_by_other_triangles(Case& c, ConformingMesh& mesh) {
   std::map<VertexId, VertexId> became;
   PointStore& points = c.model.points;
   for (const SurfaceFace& face : mesh.boundary) {
@@ -187,7 +154,7 @@ TEST(Diagonals, PointsGivenByOtherFacetsArePlacedAnew) {
   for (const Surface& surface : surfaces()) {
     Case c(surface, 3, 7);
     const DiagonalsResult entered =
-        c.enter([&](ImproveMesh& mesh) { changed += give_by_other_triangles(c, mesh); });
+        c.enter([&](ConformingMesh& mesh) { changed += give_by_other_triangles(c, mesh); });
     EXPECT_EQ(entered.missing, 0U);
     EXPECT_EQ(c.wrong(), "");
   }
@@ -200,7 +167,7 @@ TEST(Diagonals, NewPointsAreOnSegments) {
   const std::size_t before = c.model.points.size();
   c.enter();
   std::set<VertexId> used;
-  for (const SurfaceFace& face : c.result.boundary) {
+  for (const SurfaceFace& face : c.mesh.boundary) {
     used.insert(face.vertices.begin(), face.vertices.end());
   }
   std::uint64_t on_segments = 0;

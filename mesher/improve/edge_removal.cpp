@@ -84,7 +84,7 @@ bool EdgeRemoval::is_known(TetId t, std::span<const std::uint32_t> failed) const
 
 // From `first` on, so that (a, b, vertex[n], vertex[n + 1]) is the n-th tetrahedron.
 bool EdgeRemoval::collect_ring(TetId first, std::span<const std::uint32_t> failed) {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   ring_.clear();
   vertex_.clear();
   facet_.clear();
@@ -112,7 +112,7 @@ bool EdgeRemoval::collect_ring(TetId first, std::span<const std::uint32_t> faile
 
 // The first tetrahedron of an open ring; kNone if it is too far away.
 TetId EdgeRemoval::beginning(TetId t) const {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   for (int steps = 0; steps <= static_cast<int>(longest_); ++steps) {
     const auto [x, y] = opposite_edge(mesh.index_of(t, a_), mesh.index_of(t, b_));
     const TetId previous = mesh.neighbor(t, y);

@@ -11,7 +11,7 @@ constexpr std::size_t kMost = 16;
 }  // namespace
 
 bool FaceRemoval::run(TetId t, int i) {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   const TetId u = mesh.neighbor(t, i);
   if (u == kNone || mesh.facet(t, i) != kNone || !state_.counts(t)) return false;
   const Tet& v = mesh.tet(t);
@@ -68,7 +68,7 @@ void FaceRemoval::create(const CreatedTet& tet, const Quality& quality) {
 
 // The face beyond edge x, y, if there is one between the same two vertices.
 bool FaceRemoval::beyond(const Side& side, Side& next) const {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   const auto across = [&](TetId t, VertexId v) {
     const int i = mesh.index_of(t, v);
     return mesh.facet(t, i) == kNone ? mesh.neighbor(t, i) : kNone;

@@ -31,7 +31,7 @@ struct CheckedMesh {
   std::uint64_t flat = 0;
   // Its vertices are the first points of a store. The surface: all triangles, the hull, and where
   // regions meet, each face once.
-  ImproveMesh mesh;
+  ConformingMesh mesh;
 };
 
 CheckedMesh check_given(const GivenMesh& given, Control& control);

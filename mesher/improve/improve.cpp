@@ -8,10 +8,10 @@
 #include "mesher/improve/edge_removal.h"
 #include "mesher/improve/face_removal.h"
 #include "mesher/improve/insertion.h"
-#include "mesher/improve/mesh_in_order.h"
 #include "mesher/improve/relocation.h"
 #include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
+#include "mesher/tetmesh/numbering.h"
 
 namespace delmesher::improve {
 namespace {
@@ -305,7 +305,7 @@ class Improvement {
 
 }  // namespace
 
-ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
+ImproveResult improve(ConformingMesh mesh, const SurfaceTopology* topology,
                       std::span<const Vec3> given, const ImproveOptions& options,
                       PointStore& points, Predicates& predicates, Control& control) {
   // A face that is a facet of its own has no other triangulation.
@@ -319,7 +319,7 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
   ImproveResult result;
   result.became.assign(points.size(), kNone);
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
-  State state(work_mesh(std::move(mesh), point, points.size()), point, topology, given, points,
+  State state(topology_of(std::move(mesh), point, points.size()), point, topology, given, points,
               predicates, goals_of(options));
   Improvement improvement(state, topology, options.sparing, control);
   improvement.run();
@@ -328,7 +328,7 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);
   }
   result.changed = state.clock() > 0;
-  result.mesh = result_of(state);
+  result.mesh = mesh_of(state.mesh, state.point_of_vertices());
   if (topology == nullptr) {
     for (SurfaceFace& face : result.mesh.boundary) face.facet = facets[face.facet];
   }

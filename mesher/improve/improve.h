@@ -10,10 +10,10 @@
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
 #include "mesher/geometry/size_field.h"
-#include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/surface_face.h"
 #include "mesher/surface/topology.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::improve {
 
@@ -36,16 +36,8 @@ struct ImproveOptions {
   Sparing sparing = {};
 };
 
-// A conforming mesh: tetrahedra on points of a store, positive but for flat ones, and the faces
-// that tile the surface, each once. Different regions meet at these faces alone.
-struct ImproveMesh {
-  std::vector<std::array<VertexId, 4>> tetrahedra;
-  std::vector<RegionId> region;  // of each tetrahedron
-  std::vector<SurfaceFace> boundary;
-};
-
 struct ImproveResult {
-  ImproveMesh mesh;
+  ConformingMesh mesh;
   bool changed = false;
   std::vector<VertexId> became;  // per point of the store before: its point now, kNone if gone
   std::uint64_t spared = 0;      // points that left their edges by Sparing
@@ -55,7 +47,7 @@ struct ImproveResult {
 // `given`: its vertices as given, if it is a stand-in. New points are appended to the store.
 // Deterministic, and the same in whatever order tetrahedra and faces are given. Throws Stopped when
 // the control says so.
-ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
+ImproveResult improve(ConformingMesh mesh, const SurfaceTopology* topology,
                       std::span<const Vec3> given, const ImproveOptions& options,
                       PointStore& points, Predicates& predicates, Control& control);
 

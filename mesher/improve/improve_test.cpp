@@ -26,35 +26,21 @@ struct Case {
   Case(const Surface& surface, int density, std::uint32_t seed) : model(surface) {
     EXPECT_TRUE(model.valid);
     if (density > 0) cdt::test_models::enrich(model, density, seed);
-    before = after = model.run();
+    before = after = model.run().mesh;
   }
 
   void run(const ImproveOptions& options = {}, bool on_topology = true) {
-    ImproveMesh given{
-        before.tetrahedra, {before.inside.begin(), before.inside.end()}, before.boundary};
-    result = improve(std::move(given), on_topology ? &model.topology : nullptr, {}, options,
-                     model.points, model.predicates, model.control);
-    after.tetrahedra = result.mesh.tetrahedra;
-    after.inside.assign(result.mesh.region.begin(), result.mesh.region.end());
-    after.boundary = result.mesh.boundary;
-    after.repeated_faces.clear();
-    for (auto* vertices : {&after.steiner}) follow(*vertices);
-    for (auto& chain : after.chain) follow(chain);
+    result = improve(before, on_topology ? &model.topology : nullptr, {}, options, model.points,
+                     model.predicates, model.control);
+    after = result.mesh;
   }
 
-  void follow(std::vector<VertexId>& vertices) const {
-    for (VertexId& v : vertices) v = result.became[v];
-    std::erase(vertices, kNone);
-  }
+  std::string wrong() const { return rational::Checker(model.topology, model.points, after).run(); }
 
-  std::string wrong() const {
-    return rational::Checker(model.topology, model.points, after, false).run();
-  }
-
-  Quality worst(const cdt::CdtResult& mesh, bool all = false) const {
+  Quality worst(const ConformingMesh& mesh, bool all = false) const {
     Quality q = kNotCounted;
     for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
-      if (!all && mesh.inside[n] == 0) continue;
+      if (!all && mesh.region[n] == kOutside) continue;
       const auto& t = mesh.tetrahedra[n];
       const auto at = [&](int i) { return model.points.nearest(t[i]); };
       q = worse(q, quality(at(0), at(1), at(2), at(3)));
@@ -63,7 +49,7 @@ struct Case {
   }
 
   Model model;
-  cdt::CdtResult before, after;
+  ConformingMesh before, after;
   ImproveResult result;
 };
 
@@ -160,7 +146,7 @@ TEST(Improve, KeepsTheBoundaryOfAnyMesh) {
   for (const Surface& s : one_of_each()) {
     Case c(s, 2, seed++);
     c.run({}, false);
-    const auto faces = [](const cdt::CdtResult& mesh) {
+    const auto faces = [](const ConformingMesh& mesh) {
       std::multiset<std::array<VertexId, 3>> keys;
       for (const SurfaceFace& face : mesh.boundary) {
         keys.insert(base::directed_face(face.vertices));
@@ -175,12 +161,12 @@ TEST(Improve, KeepsTheBoundaryOfAnyMesh) {
 
 // A grid of points, of which much can go; with a bound on the edges less.
 TEST(Improve, MakesNoLongEdges) {
-  const auto longest = [](const Case& c, const cdt::CdtResult& mesh) {
+  const auto longest = [](const Case& c, const ConformingMesh& mesh) {
     double length = 0;
     for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
       const auto& t = mesh.tetrahedra[n];
       for (const auto& [i, j] : kEdge) {
-        if (mesh.inside[n] == 0) continue;
+        if (mesh.region[n] == kOutside) continue;
         length = std::max(length, norm(c.model.points.difference(t[i], t[j])));
       }
     }
@@ -195,7 +181,7 @@ TEST(Improve, MakesNoLongEdges) {
       };
       c.model.input.vertices.push_back(c.model.points.add_explicit(at(n), at(n / 7), at(n / 49)));
     }
-    c.before = c.model.run();
+    c.before = c.model.run().mesh;
     before = longest(c, c.before);
     ImproveOptions options;
     options.max_edge = limit < 1 ? before : 0;
@@ -242,14 +228,14 @@ TEST(Improve, OrderDoesNotMatter) {
       std::swap(t[0], t[random() % 3 + 1]);
       std::swap(t[2], t[3]);
       other.before.tetrahedra[n] = t;
-      other.before.inside[n] = one.before.inside[order[n]];
+      other.before.region[n] = one.before.region[order[n]];
     }
     if (on_topology) {  // else faces are named by their order
       std::shuffle(other.before.boundary.begin(), other.before.boundary.end(), random);
     }
     other.run({}, on_topology);
     EXPECT_EQ(other.after.tetrahedra, one.after.tetrahedra);
-    EXPECT_EQ(other.after.inside, one.after.inside);
+    EXPECT_EQ(other.after.region, one.after.region);
     for (const VertexId v : vertices(one.after)) {
       EXPECT_EQ(other.model.points.nearest(v), one.model.points.nearest(v));
     }
@@ -266,21 +252,21 @@ TEST(Improve, RoundsOffWhereNothingIsBad) {
   Predicates predicates(points);
   Control control{Limits{}};
   const auto around = [](VertexId a, VertexId b, const std::array<VertexId, 4>& ring) {
-    ImproveMesh mesh;
+    ConformingMesh mesh;
     for (int k = 0; k < 4; ++k) {
       mesh.tetrahedra.push_back({ring[k], ring[(k + 1) % 4], b, a});
       mesh.region.push_back(1);
     }
     return mesh;
   };
-  const auto mean = [&](const ImproveMesh& mesh) {
+  const auto mean = [&](const ConformingMesh& mesh) {
     double sum = 0;
     for (const auto& t : mesh.tetrahedra) {
       sum += std::sqrt(quality(corners[t[0]], corners[t[1]], corners[t[2]], corners[t[3]]).gamma);
     }
     return sum / static_cast<double>(mesh.tetrahedra.size());
   };
-  const ImproveMesh tall = around(0, 1, {2, 3, 4, 5});
+  const ConformingMesh tall = around(0, 1, {2, 3, 4, 5});
   const ImproveResult once = improve(tall, nullptr, {}, {}, points, predicates, control);
   EXPECT_TRUE(once.changed);
   EXPECT_EQ(once.mesh.tetrahedra.size(), 4U);
@@ -304,9 +290,7 @@ TEST(Improve, TellsHowFarItIs) {
   Case c(box(0, 1), 8, 1);
   Control control(limits);
   control.enter(Phase::improve);
-  improve(
-      {c.before.tetrahedra, {c.before.inside.begin(), c.before.inside.end()}, c.before.boundary},
-      &c.model.topology, {}, {}, c.model.points, c.model.predicates, control);
+  improve(c.before, &c.model.topology, {}, {}, c.model.points, c.model.predicates, control);
   ASSERT_GT(done.size(), 10U);
   double before = 0;
   for (const double now : done) {
@@ -325,8 +309,7 @@ TEST(Improve, EndsWhenItIsCancelled) {
   Case c(box(0, 1), 8, 1);
   Control control(limits);
   control.enter(Phase::improve);
-  ImproveMesh given{
-      c.before.tetrahedra, {c.before.inside.begin(), c.before.inside.end()}, c.before.boundary};
+  ConformingMesh given = c.before;
   EXPECT_THROW(improve(std::move(given), &c.model.topology, {}, {}, c.model.points,
                        c.model.predicates, control),
                Stopped);

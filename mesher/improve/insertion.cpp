@@ -161,7 +161,7 @@ bool Insertion::keeps_surface() {
 
 // The edges of the faces that the point replaces, in order.
 void Insertion::find_patch() {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   patch_.clear();
   for (const TetId t : cavity_) {
     for (int i = 0; i < 4; ++i) {
@@ -187,7 +187,7 @@ bool Insertion::sees_outline(const Place& place) {
 // No face of the point's facets is left on the skin but on the hull, and all vertices of the
 // surface are.
 bool Insertion::keeps_its_vertices() const {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   std::vector<VertexId> kept;
   for (const auto& [tet, face, quality] : faces_) {
     if (site_.is_on(mesh.facet(tet, face))) {
@@ -208,7 +208,7 @@ bool Insertion::keeps_its_vertices() const {
 
 // Of t and its neighbours: t itself may be flat.
 Vec3 Insertion::middle(TetId t) const {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   Vec3 sum{};
   double count = 0;
   const auto take = [&](VertexId v) {
@@ -253,7 +253,7 @@ void Insertion::grow(const Vec3& x) {
 
 // Faces of the point's own facets first: it is in their plane.
 std::vector<Insertion::Face>::const_iterator Insertion::face_to_cross() const {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   if (site_.mobility != Mobility::free) {
     const auto own = std::ranges::find_if(faces_, [&](const Face& f) {
       return site_.is_on(mesh.facet(f.tet, f.face)) && mesh.neighbor(f.tet, f.face) != kNone;

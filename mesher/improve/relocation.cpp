@@ -40,7 +40,7 @@ bool Relocation::run(VertexId v) {
 
 // False if there are tetrahedra on both sides of the surface.
 bool Relocation::find_faces() {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   old_faces_.clear();
   for (const TetId t : star_) {
     for (int i = 0; i < 4; ++i) {

@@ -11,7 +11,7 @@ using Side = std::pair<TetId, int>;  // a face of a tetrahedron
 
 // Faces of the surface at an edge of t, each once: around the edge, and if that ends at the hull,
 // also the other way round.
-std::vector<Side> walls_around(const WorkMesh& mesh, TetId t, VertexId a, VertexId b) {
+std::vector<Side> walls_around(const MeshTopology& mesh, TetId t, VertexId a, VertexId b) {
   const auto [first, last] = opposite_edge(mesh.index_of(t, a), mesh.index_of(t, b));
   const bool begin = first < last;
   std::vector<Side> walls;

@@ -9,7 +9,7 @@ namespace delmesher::improve {
 bool Smoothing::begin(VertexId v) {
   if (state_.mobility(v) == Mobility::fixed) return false;
   v_ = v;
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   mesh.star(v, star_);
   // The worst one first: it ends most attempts.
   for (TetId& t : star_) {
@@ -42,7 +42,7 @@ double Smoothing::shortest() const {
 // Of the neighbours, each as often as it has tetrahedra of the star; on the surface, of those
 // there.
 void Smoothing::find_center() {
-  const WorkMesh& mesh = state_.mesh;
+  const MeshTopology& mesh = state_.mesh;
   double neighbours = 0;
   center_ = {0, 0, 0};
   const auto take = [&](VertexId w) {

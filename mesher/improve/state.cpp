@@ -11,10 +11,10 @@
 
 namespace delmesher::improve {
 
-State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopology* topology,
+State::State(MeshTopology tetrahedra, std::vector<VertexId> point, const SurfaceTopology* topology,
              std::span<const Vec3> given, PointStore& points, Predicates& predicates,
              const Goals& goals)
-    : mesh(std::move(work_mesh)),
+    : mesh(std::move(tetrahedra)),
       points_(points),
       predicates_(predicates),
       topology_(topology),

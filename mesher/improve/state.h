@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "mesher/geometry/size_field.h"
+#include "mesher/improve/goals.h"
 #include "mesher/improve/quality.h"
-#include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/facet_locator.h"
 #include "mesher/surface/topology.h"
+#include "mesher/tetmesh/mesh_topology.h"
 
 namespace delmesher::improve {
 
@@ -49,17 +49,6 @@ enum class Measure : std::uint8_t {
   dihedrals  // dihedral angles alone
 };
 
-struct Goals {
-  Quality target;  // tetrahedra as good as this are left alone
-  // Squared sines: no face angle below `promised` and no dihedral angle flatter than `floor` is
-  // made, unless one as bad was there.
-  float promised = 0, floor = 0;
-  double max_edge = 0;               // no edge longer than this is made; 0: any
-  const SizeField* sizes = nullptr;  // nor than these allow; null: any
-  bool as_given = false;             // tetrahedra are positive on the surface as given, too
-  bool everywhere = false;           // tetrahedra outside count as well
-};
-
 // Where a vertex is or could be: a point of the store, and as it will be written, before repairs of
 // rounding.
 struct Place {
@@ -78,14 +67,15 @@ class State {
   // `point`: of each vertex, in the store. `topology`: of the surface; null if no vertex of it may
   // move. `given`: its vertices as given, where it is a stand-in; else empty. Arguments passed by
   // reference or pointer must outlive the state.
-  State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopology* topology,
+  State(MeshTopology tetrahedra, std::vector<VertexId> point, const SurfaceTopology* topology,
         std::span<const Vec3> given, PointStore& points, Predicates& predicates,
         const Goals& goals);
 
-  WorkMesh mesh;
+  MeshTopology mesh;
 
   const PointStore& points() const { return points_; }
   VertexId point(VertexId v) const { return point_[v]; }
+  std::span<const VertexId> point_of_vertices() const { return point_; }
   const Vec3& position(VertexId v) const { return position_[v]; }
   Mobility mobility(VertexId v) const { return mobility_[v]; }
 

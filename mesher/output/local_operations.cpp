@@ -58,7 +58,7 @@ bool LocalOperations::positive(const Tet& t) {
 
 bool LocalOperations::replace() {
   for (const std::uint32_t t : removed_) {
-    if (mesh_.inside(t) != mesh_.inside(removed_[0])) return false;
+    if (mesh_.region(t) != mesh_.region(removed_[0])) return false;
   }
   if (clashes()) return false;
   mesh_.replace(removed_, created_);

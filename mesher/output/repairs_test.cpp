@@ -25,7 +25,7 @@ struct Scene {
   }
   RoundedMesh mesh() {
     input.points = &points;
-    input.inside.assign(input.tetrahedra.size(), 1);
+    input.mesh.region.assign(input.mesh.tetrahedra.size(), 1);
     given_ = input;
     return {given_, control};
   }
@@ -51,8 +51,8 @@ Scene octahedron(double x, double y, double z) {
   for (std::uint32_t i = 0; i < 8; ++i) {
     const std::uint32_t a = i & 1, b = 2 + (i >> 1 & 1), c = 4 + (i >> 2);
     const bool even = (a + (b - 2) + (c - 4)) % 2 == 0;
-    s.input.tetrahedra.push_back({even ? a : b, even ? b : a, c, centre});
-    std::swap(s.input.tetrahedra.back()[2], s.input.tetrahedra.back()[3]);
+    s.input.mesh.tetrahedra.push_back({even ? a : b, even ? b : a, c, centre});
+    std::swap(s.input.mesh.tetrahedra.back()[2], s.input.mesh.tetrahedra.back()[3]);
   }
   return s;
 }
@@ -110,7 +110,7 @@ TEST(VertexMoves, EachCoordinateHasStepsOfItsOwn) {
   constexpr double kBase = 0x1p-70;
   s.add(0, 0, kBase, true), s.add(2, 0, kBase, true), s.add(0, 2, kBase, true);
   s.add(0.5, 0.25, 0x1p-60, true), s.add(0.5, 0.25, kBase, false);
-  s.input.tetrahedra = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}};
+  s.input.mesh.tetrahedra = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}};
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad(), (std::set<std::uint32_t>{3}));
   mesh.prepare_repairs();
@@ -132,8 +132,8 @@ TEST(VertexMoves, ChainsMakeRoom) {
     s.add(0, 0, kBase, true), s.add(2, 0, kBase, true), s.add(0, 2, kBase, true);
     s.add(0.5, 0.25, 0x1p-60, true), s.add(0.5, 0.25, kBase, false);
     s.add(0.5, 0.25, above, fixed);
-    s.input.tetrahedra = {{0, 1, 2, 4}, {4, 1, 2, 5}, {0, 4, 2, 5}, {0, 1, 4, 5},
-                          {5, 1, 2, 3}, {0, 5, 2, 3}, {0, 1, 5, 3}};
+    s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {4, 1, 2, 5}, {0, 4, 2, 5}, {0, 1, 4, 5},
+                               {5, 1, 2, 3}, {0, 5, 2, 3}, {0, 1, 5, 3}};
     RoundedMesh mesh = s.mesh();
     ASSERT_EQ(mesh.bad(), (std::set<std::uint32_t>{0}));
     mesh.prepare_repairs();
@@ -180,9 +180,9 @@ TEST(VertexMoves, SeparatingDoesNoHarm) {
       VertexId a = add(face, 0, 0, true), b = add(face, 4, 0, true);
       const VertexId c = add(face, 0, 4, true);
       if (side < 0) std::swap(a, b);
-      s.input.tetrahedra = {{a, b, c, v}};
+      s.input.mesh.tetrahedra = {{a, b, c, v}};
       const VertexId d = add(8, 0, 0, true), e = add(8, 4, 0, true), f = add(8, 0, 4, true);
-      s.input.tetrahedra.push_back({e, d, f, w});
+      s.input.mesh.tetrahedra.push_back({e, d, f, w});
       RoundedMesh mesh = s.mesh();
       ASSERT_TRUE(mesh.bad().empty());
       ASSERT_EQ(mesh.coincident().size(), 1U);
@@ -200,7 +200,7 @@ TEST(VertexMoves, UntanglingTakesStepsOfTheSurface) {
   Scene s;
   s.add(0, 0, 0, true), s.add(2, 0, 0, true), s.add(0, 2, 0, true);
   s.add(0x1p-60, 0x1p-60, -0x1p-60, false);
-  s.input.tetrahedra = {{0, 1, 2, 3}};
+  s.input.mesh.tetrahedra = {{0, 1, 2, 3}};
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad().size(), 1U);
   mesh.prepare_repairs();
@@ -268,8 +268,8 @@ Scene ring(int n, double off) {
     s.add(std::cos(angle), std::sin(angle), 0, true);
   }
   for (int i = 0; i < n; ++i) {
-    s.input.tetrahedra.push_back({south, north, static_cast<std::uint32_t>(2 + i),
-                                  static_cast<std::uint32_t>(2 + (i + 1) % n)});
+    s.input.mesh.tetrahedra.push_back({south, north, static_cast<std::uint32_t>(2 + i),
+                                       static_cast<std::uint32_t>(2 + (i + 1) % n)});
   }
   return s;
 }
@@ -300,7 +300,7 @@ TEST(LocalOperations, RemovesAnEdgeInAStar) {
       s.add(radius * std::cos(angle), radius * std::sin(angle), 0, true);
     }
     for (std::uint32_t i = 0; i < 6; ++i) {
-      s.input.tetrahedra.push_back({south, north, 2 + i, 2 + (i + 1) % 6});
+      s.input.mesh.tetrahedra.push_back({south, north, 2 + i, 2 + (i + 1) % 6});
     }
     RoundedMesh mesh = s.mesh();
     ASSERT_FALSE(mesh.bad().empty());
@@ -316,7 +316,7 @@ TEST(LocalOperations, MakesNothingFlat) {
   Scene s;
   s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
   s.add(2, 0, 0, true), s.add(1, 1, 2, true);
-  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
+  s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   for (const bool exact_too : {false, true}) {
     RoundedMesh mesh = s.mesh();
     ASSERT_EQ(mesh.bad().size(), 1U);
@@ -336,14 +336,14 @@ TEST(Badness, CountsWhatIsNotPositiveAndOfThatWhatIsInverted) {
 
 TEST(LocalOperations, KeepsBoundaryFacesAndFlags) {
   Scene s = ring(5, 1.1);
-  s.input.boundary.push_back({1, 3, 0});
+  s.input.mesh.boundary.push_back({{1, 3, 0}, 0});
   RoundedMesh kept = s.mesh();
   kept.prepare_repairs();
   EXPECT_FALSE(LocalOperations(kept, s.points).fix(*kept.bad().begin(), true));
 
-  s.input.boundary.clear();
+  s.input.mesh.boundary.clear();
   s.input.points = &s.points;
-  s.input.inside = {1, 1, 1, 0, 0};
+  s.input.mesh.region = {1, 1, 1, 0, 0};
   RoundedMesh mixed(s.input, s.control);
   mixed.prepare_repairs();
   EXPECT_FALSE(LocalOperations(mixed, s.points).fix(*mixed.bad().begin(), true));
@@ -354,7 +354,7 @@ TEST(LocalOperations, RemovesFaces) {
   Scene s;
   s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
   s.add(1, 1, 0, true), s.add(1, 1, 2, true);
-  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
+  s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad().size(), 1U);
   mesh.prepare_repairs();
@@ -368,7 +368,7 @@ TEST(LocalOperations, MakesNoEdgeTwice) {
   Scene s;
   s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
   s.add(1, 1, 0, true), s.add(1, 1, 2, true), s.add(9, 9, 0, true), s.add(9, 0, 9, true);
-  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {3, 4, 5, 6}};
+  s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {3, 4, 5, 6}};
   RoundedMesh mesh = s.mesh();
   mesh.prepare_repairs();
   EXPECT_FALSE(LocalOperations(mesh, s.points).fix(1, true));
@@ -389,10 +389,10 @@ TEST(LocalOperations, MakesNoFaceThrice) {
         s.add(p[0], p[1], p[2], true);
       }
       s.add(0, 0, 9, true);
-      for (const Tet& t : given.input.tetrahedra) {
-        s.input.tetrahedra.push_back({moved(t[0]), moved(t[1]), moved(t[2]), moved(t[3])});
+      for (const Tet& t : given.input.mesh.tetrahedra) {
+        s.input.mesh.tetrahedra.push_back({moved(t[0]), moved(t[1]), moved(t[2]), moved(t[3])});
       }
-      if (taken) s.input.tetrahedra.push_back({moved(2), moved(3), moved(4), 5});
+      if (taken) s.input.mesh.tetrahedra.push_back({moved(2), moved(3), moved(4), 5});
       RoundedMesh mesh = s.mesh();
       ASSERT_FALSE(mesh.bad().empty());
       mesh.prepare_repairs();
@@ -406,7 +406,7 @@ TEST(LocalOperations, MayAskForExactPositions) {
   Scene s;
   s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
   s.add(5, 5, -0.5, true), s.add(1, 1, 2, true);
-  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
+  s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   RoundedMesh mesh = s.mesh();
   mesh.prepare_repairs();
   EXPECT_TRUE(mesh.bad().empty());

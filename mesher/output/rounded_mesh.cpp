@@ -21,9 +21,8 @@ void erase_sorted(std::vector<T>& sorted, T value) {
 }  // namespace
 
 RoundedMesh::RoundedMesh(RoundingInput& input, Control& control)
-    : input_(input), tet_(std::move(input.tetrahedra)), inside_(std::move(input.inside)) {
-  DELMESHER_CHECK(inside_.size() == tet_.size(),
-                  "there are not as many inside flags as tetrahedra");
+    : input_(input), tet_(std::move(input.mesh.tetrahedra)), region_(std::move(input.mesh.region)) {
+  DELMESHER_CHECK(region_.size() == tet_.size(), "there are not as many regions as tetrahedra");
   number_vertices();
   certify(control);
 }
@@ -119,8 +118,9 @@ void RoundedMesh::prepare_repairs() {
     return static_cast<std::uint32_t>(at - store_id_.begin());
   };
   boundary_.clear();
-  boundary_.reserve(input_.boundary.size());
-  for (const auto& [a, b, c] : input_.boundary) {
+  boundary_.reserve(input_.mesh.boundary.size());
+  for (const SurfaceFace& face : input_.mesh.boundary) {
+    const auto& [a, b, c] = face.vertices;
     boundary_.push_back(undirected_face(local(a), local(b), local(c)));
   }
   std::sort(boundary_.begin(), boundary_.end());
@@ -196,7 +196,7 @@ std::uint32_t RoundedMesh::last_change(std::uint32_t t) const {
 
 void RoundedMesh::replace(std::span<const std::uint32_t> removed, std::span<const Tet> created) {
   ++clock_;
-  const std::uint8_t flag = inside_[removed[0]];
+  const RegionId region = region_[removed[0]];
   std::vector<std::uint32_t> free(removed.begin(), removed.end());
   std::sort(free.begin(), free.end(), std::greater<>());
   for (const std::uint32_t t : free) {
@@ -211,7 +211,7 @@ void RoundedMesh::replace(std::span<const std::uint32_t> removed, std::span<cons
     auto t = static_cast<std::uint32_t>(tet_.size());
     if (free.empty()) {
       tet_.emplace_back();
-      inside_.push_back(flag);
+      region_.push_back(region);
       sign_.push_back(1);
     } else {
       t = free.back();

@@ -12,8 +12,6 @@
 
 namespace delmesher::output {
 
-using Tet = std::array<std::uint32_t, 4>;
-
 // How bad some tetrahedra are: first how many are not positive, then how many of these are
 // inverted. Repairs decrease it, so they end; separating may keep it, untangling has a budget.
 using Badness = std::int64_t;
@@ -44,7 +42,7 @@ class RoundedMesh {
   std::size_t slots() const { return tet_.size(); }
   bool alive(std::uint32_t t) const { return tet_[t][0] != kNone; }
   const Tet& tet(std::uint32_t t) const { return tet_[t]; }
-  bool inside(std::uint32_t t) const { return inside_[t] != 0; }
+  RegionId region(std::uint32_t t) const { return region_[t]; }
   int sign(std::uint32_t t) const { return sign_[t]; }
   // Slots of the tetrahedra that are not positive.
   const std::set<std::uint32_t>& bad() const { return bad_; }
@@ -74,7 +72,7 @@ class RoundedMesh {
   std::uint32_t clock() const { return clock_; }
   // When a tetrahedron that shares a vertex with t last changed.
   std::uint32_t last_change(std::uint32_t t) const;
-  // Replaces tetrahedra, all with the same inside flag, by others with the same outer faces.
+  // Replaces tetrahedra, all of one region, by others with the same outer faces.
   void replace(std::span<const std::uint32_t> removed, std::span<const Tet> created);
 
  private:
@@ -96,7 +94,7 @@ class RoundedMesh {
   std::vector<VertexId> store_id_;
   std::vector<Vec3> position_;
   std::vector<Tet> tet_;
-  std::vector<std::uint8_t> inside_;
+  std::vector<RegionId> region_;
   std::vector<std::int8_t> sign_;
   std::set<std::uint32_t> bad_;
 

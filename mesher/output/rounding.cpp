@@ -117,13 +117,14 @@ double deviation(const RoundedMesh& mesh, std::uint32_t v) {
 }
 
 void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingResult& result) {
+  TetMesh& written = result.mesh;
   std::vector<std::uint32_t> index(mesh.vertices(), kNone);
-  result.tetrahedra.reserve(mesh.slots());
-  result.inside.reserve(mesh.slots());
+  written.tetrahedra.reserve(mesh.slots());
+  written.inside.reserve(mesh.slots());
   for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
     if (!mesh.alive(t)) continue;
-    result.tetrahedra.push_back(mesh.tet(t));
-    result.inside.push_back(mesh.inside(t) ? 1 : 0);
+    written.tetrahedra.push_back(mesh.tet(t));
+    written.inside.push_back(mesh.region(t) != kOutside ? 1 : 0);
     for (const std::uint32_t v : mesh.tet(t)) index[v] = 0;
   }
   std::vector<std::uint32_t> of_store(input.points->size(), kNone);
@@ -132,17 +133,20 @@ void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingRe
     index[v] = static_cast<std::uint32_t>(result.vertices.size());
     of_store[mesh.store_id(v)] = index[v];
     result.vertices.push_back(mesh.store_id(v));
-    result.coordinates.push_back(mesh.position(v));
+    written.vertices.push_back(mesh.position(v));
     if (mesh.on_surface(v)) {
       result.max_surface_deviation = std::max(result.max_surface_deviation, deviation(mesh, v));
     }
   }
-  for (Tet& t : result.tetrahedra) {
+  for (Tet& t : written.tetrahedra) {
     for (std::uint32_t& v : t) v = index[v];
   }
-  for (const auto& [a, b, c] : input.boundary) {
-    result.boundary.push_back({of_store[a], of_store[b], of_store[c]});
+  for (const auto& [vertices, facet] : input.mesh.boundary) {
+    const auto& [a, b, c] = vertices;
+    written.boundary.push_back({of_store[a], of_store[b], of_store[c]});
+    written.boundary_facets.push_back(facet);
   }
+  if (result.operations == 0) result.repeated_faces = input.mesh.repeated_faces;
 }
 
 // The tetrahedra of the input are there again afterwards if there was something to repair.
@@ -157,9 +161,9 @@ RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& cont
     }
     for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
       const auto& [a, b, c, d] = mesh.tet(t);
-      input.tetrahedra.push_back(
+      input.mesh.tetrahedra.push_back(
           {mesh.store_id(a), mesh.store_id(b), mesh.store_id(c), mesh.store_id(d)});
-      input.inside.push_back(mesh.inside(t) ? 1 : 0);
+      input.mesh.region.push_back(mesh.region(t));
     }
     result.tried = bad_before <= most;
     if (result.tried) {
@@ -176,12 +180,13 @@ RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& cont
 }
 
 // The same order for every run: the state is the only source of it.
-void shuffle_tetrahedra(RoundingInput& input, std::uint32_t& state) {
-  for (std::size_t n = input.tetrahedra.size(); n > 1; --n) {
+void shuffle_tetrahedra(ConformingMesh& mesh, std::uint32_t& state) {
+  mesh.repeated_faces.clear();
+  for (std::size_t n = mesh.tetrahedra.size(); n > 1; --n) {
     state = state * 1664525U + 1013904223U;
     const std::size_t m = (std::uint64_t{state} * n) >> 32U;
-    std::swap(input.tetrahedra[n - 1], input.tetrahedra[m]);
-    std::swap(input.inside[n - 1], input.inside[m]);
+    std::swap(mesh.tetrahedra[n - 1], mesh.tetrahedra[m]);
+    std::swap(mesh.region[n - 1], mesh.region[m]);
   }
 }
 
@@ -200,7 +205,7 @@ RoundingResult best_rounding(RoundingInput& input, Control& control, const Repai
   if (limits.thorough == 0 || !best.tried || defects(best).first > limits.thorough) return best;
   std::uint32_t state = 1;
   for (int order = 1; order < kOrders && defects(best).first > 0; ++order) {
-    shuffle_tetrahedra(input, state);
+    shuffle_tetrahedra(input.mesh, state);
     RoundingResult other = round(Strategy::descend);
     if (defects(other).first < defects(best).first) best = std::move(other);
   }
@@ -210,7 +215,7 @@ RoundingResult best_rounding(RoundingInput& input, Control& control, const Repai
       RoundingResult other = round(s);
       if (defects(other) < defects(best)) best = std::move(other);
     }
-    shuffle_tetrahedra(input, state);
+    shuffle_tetrahedra(input.mesh, state);
   }
   return best;
 }

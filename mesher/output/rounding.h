@@ -3,7 +3,6 @@
 // as written is valid.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -11,37 +10,36 @@
 #include <vector>
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher/run.h"
+#include "mesher/delmesher/tet_mesh.h"
 #include "mesher/geometry/local_frame.h"
 #include "mesher/predicates/points.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::output {
 
-// The input of rounding: tetrahedra of positive orientation on exact points. Repairs may move
-// non-explicit vertices to nearby doubles, move volume vertices, and change the tetrahedra by local
-// operations that keep the boundary faces.
+// The input of rounding. Repairs may move non-explicit vertices to nearby doubles, move volume
+// vertices, and change the tetrahedra by local operations that keep the boundary faces.
 struct RoundingInput {
+  // All of it is written. Repeated faces have their bits 0 to 3.
+  ConformingMesh mesh;
   const PointStore* points;
   LocalFrame frame;  // coordinates are doubles in the given frame, too
-  std::vector<std::array<VertexId, 4>> tetrahedra;
-  std::vector<std::uint8_t> inside;  // per tetrahedron
   // Where vertices go that are not simply rounded; by point of the store, empty if there are none.
   std::vector<std::array<double, 3>> place;
   // Vertices that must keep their exact position: those of the input and of the outer box.
   std::vector<std::uint8_t> fixed;  // per point of the store
   // Vertices on the surface or on the box (may move by a few ulps only); others are free to move
   // inside their star.
-  std::vector<std::uint8_t> on_surface;           // per point of the store
-  std::vector<std::array<VertexId, 3>> boundary;  // surface faces, to be kept
+  std::vector<std::uint8_t> on_surface;  // per point of the store
 };
 
 struct RoundingResult {
-  std::vector<VertexId> vertices;  // output vertex -> point of the store
-  std::vector<std::array<double, 3>> coordinates;
-  std::vector<std::array<std::uint32_t, 4>> tetrahedra;  // indices into vertices
-  std::vector<std::uint8_t> inside;
-  std::vector<std::array<std::uint32_t, 3>> boundary;  // in the order of RoundingInput::boundary
-  std::uint64_t inverted = 0, flat = 0;                // left in the result, by exact sign
+  // As written. The boundary is in the order of RoundingInput::mesh; its facets are those there,
+  // and labels are not known yet.
+  TetMesh mesh;
+  std::vector<VertexId> vertices;            // of the mesh, in the store
+  std::vector<std::uint8_t> repeated_faces;  // of its tetrahedra; empty after local operations
+  std::uint64_t inverted = 0, flat = 0;      // left in the result, by exact sign
   std::uint64_t repaired = 0;    // how many fewer are not positive than after plain rounding
   std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one
   std::uint64_t signs = 0;       // of tetrahedra in doubles that were decided, in all attempts

@@ -60,23 +60,23 @@ Face rotated(Face f) {
   return f;
 }
 
-// Outward faces, counting each, with the flag of the tetrahedron.
+// Outward faces, counting each, with the region of the tetrahedron.
 std::map<Face, int> oriented_faces(const std::vector<Tet>& tets,
-                                   const std::vector<std::uint8_t>& inside) {
+                                   const std::vector<RegionId>& region) {
   std::map<Face, int> faces;
   for (std::size_t t = 0; t < tets.size(); ++t) {
     for (const auto& f : kFace) {
       const bool fresh =
-          faces.emplace(rotated({tets[t][f[0]], tets[t][f[1]], tets[t][f[2]]}), inside[t]).second;
+          faces.emplace(rotated({tets[t][f[0]], tets[t][f[1]], tets[t][f[2]]}), region[t]).second;
       EXPECT_TRUE(fresh) << "a face is twice on the same side";
     }
   }
   return faces;
 }
 
-// Faces on one tetrahedron, or between tetrahedra of different flags.
-std::set<Face> outline(const std::vector<Tet>& tets, const std::vector<std::uint8_t>& inside) {
-  const auto faces = oriented_faces(tets, inside);
+// Faces on one tetrahedron, or between tetrahedra of different regions.
+std::set<Face> outline(const std::vector<Tet>& tets, const std::vector<RegionId>& region) {
+  const auto faces = oriented_faces(tets, region);
   std::set<Face> result;
   for (const auto& [f, flag] : faces) {
     const auto twin = faces.find(rotated({f[0], f[2], f[1]}));
@@ -95,9 +95,9 @@ struct Scene {
     input.points = &points;
     input.fixed.resize(points.size(), 0);
     input.on_surface.resize(points.size(), 0);
-    input.inside.resize(input.tetrahedra.size(), 1);
-    const std::set<Face> faces = outline(input.tetrahedra, input.inside);
-    input.boundary.assign(faces.begin(), faces.end());
+    input.mesh.region.resize(input.mesh.tetrahedra.size(), 1);
+    const std::set<Face> faces = outline(input.mesh.tetrahedra, input.mesh.region);
+    for (const Face& f : faces) input.mesh.boundary.push_back({f, 0});
   }
   std::size_t bad_when_rounded() const { return bad().size(); }
   std::set<VertexId> disturbed() const {
@@ -111,7 +111,7 @@ struct Scene {
     std::vector<Vec3> x;
     for (VertexId v = 0; v < points.size(); ++v) x.push_back(points.nearest(v));
     std::vector<Tet> result;
-    for (const Tet& t : input.tetrahedra) {
+    for (const Tet& t : input.mesh.tetrahedra) {
       if (sign_of(x, t) <= 0) result.push_back(t);
     }
     return result;
@@ -127,13 +127,13 @@ RoundingResult run(const Scene& scene, const RepairLimits& limits = {}) {
 // Everything that round_mesh promises, whatever it could or could not repair.
 void check(const Scene& scene, const RoundingResult& r) {
   ASSERT_TRUE(std::is_sorted(r.vertices.begin(), r.vertices.end()));
-  ASSERT_EQ(r.vertices.size(), r.coordinates.size());
-  ASSERT_EQ(r.tetrahedra.size(), r.inside.size());
+  ASSERT_EQ(r.vertices.size(), r.mesh.vertices.size());
+  ASSERT_EQ(r.mesh.tetrahedra.size(), r.mesh.inside.size());
   std::uint64_t inverted = 0, flat = 0;
   std::vector<Tet> in_store;
   std::set<std::uint32_t> used;
-  for (const Tet& t : r.tetrahedra) {
-    const int sign = sign_of(r.coordinates, t);
+  for (const Tet& t : r.mesh.tetrahedra) {
+    const int sign = sign_of(r.mesh.vertices, t);
     inverted += sign < 0;
     flat += sign == 0;
     in_store.push_back({r.vertices[t[0]], r.vertices[t[1]], r.vertices[t[2]], r.vertices[t[3]]});
@@ -144,16 +144,17 @@ void check(const Scene& scene, const RoundingResult& r) {
   EXPECT_EQ(scene.bad_when_rounded(), r.repaired + inverted + flat);
   EXPECT_EQ(std::set<VertexId>(r.disturbed.begin(), r.disturbed.end()), scene.disturbed());
   EXPECT_EQ(used.size(), r.vertices.size());
-  EXPECT_EQ(outline(in_store, r.inside), outline(scene.input.tetrahedra, scene.input.inside));
-  ASSERT_EQ(r.boundary.size(), scene.input.boundary.size());
-  for (std::size_t i = 0; i < r.boundary.size(); ++i) {
+  EXPECT_EQ(outline(in_store, {r.mesh.inside.begin(), r.mesh.inside.end()}),
+            outline(scene.input.mesh.tetrahedra, scene.input.mesh.region));
+  ASSERT_EQ(r.mesh.boundary.size(), scene.input.mesh.boundary.size());
+  for (std::size_t i = 0; i < r.mesh.boundary.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
-      EXPECT_EQ(r.vertices[r.boundary[i][k]], scene.input.boundary[i][k]);
+      EXPECT_EQ(r.vertices[r.mesh.boundary[i][k]], scene.input.mesh.boundary[i].vertices[k]);
     }
   }
   double largest = 0;
-  for (const auto& face : scene.input.boundary) {
-    for (const VertexId v : face) {
+  for (const auto& face : scene.input.mesh.boundary) {
+    for (const VertexId v : face.vertices) {
       for (const double c : scene.points.nearest(v)) largest = std::max(largest, std::fabs(c));
     }
   }
@@ -161,10 +162,10 @@ void check(const Scene& scene, const RoundingResult& r) {
   for (std::size_t i = 0; i < r.vertices.size(); ++i) {
     const VertexId v = r.vertices[i];
     if (scene.input.fixed[v] != 0) {
-      EXPECT_EQ(r.coordinates[i], scene.points.nearest(v));
+      EXPECT_EQ(r.mesh.vertices[i], scene.points.nearest(v));
     }
     if (scene.input.on_surface[v] == 0) continue;
-    const ExactVec exact = exact_position(scene.points, v), written = rational(r.coordinates[i]);
+    const ExactVec exact = exact_position(scene.points, v), written = rational(r.mesh.vertices[i]);
     mpq_class squared = 0;
     for (int k = 0; k < 3; ++k) squared += (written[k] - exact[k]) * (written[k] - exact[k]);
     const mpq_class limit = 4 * mpq_class(ulp), claimed(r.max_surface_deviation);
@@ -173,17 +174,17 @@ void check(const Scene& scene, const RoundingResult& r) {
     // The claim adds twice the error of nearest doubles in three coordinates: sqrt(3) ulp.
     EXPECT_TRUE(claimed <= limit + 2 * mpq_class(ulp));
   }
-  const std::set<Vec3> distinct(r.coordinates.begin(), r.coordinates.end());
-  EXPECT_EQ(distinct.size() + r.coincident, r.coordinates.size());
+  const std::set<Vec3> distinct(r.mesh.vertices.begin(), r.mesh.vertices.end());
+  EXPECT_EQ(distinct.size() + r.coincident, r.mesh.vertices.size());
 }
 
 void expect_same(const RoundingResult& a, const RoundingResult& b, double factor) {
   EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.tetrahedra, b.tetrahedra);
+  EXPECT_EQ(a.mesh.tetrahedra, b.mesh.tetrahedra);
   EXPECT_EQ(a.max_surface_deviation * factor, b.max_surface_deviation);
-  ASSERT_EQ(a.coordinates.size(), b.coordinates.size());
-  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
-    for (int k = 0; k < 3; ++k) ASSERT_EQ(a.coordinates[i][k] * factor, b.coordinates[i][k]);
+  ASSERT_EQ(a.mesh.vertices.size(), b.mesh.vertices.size());
+  for (std::size_t i = 0; i < a.mesh.vertices.size(); ++i) {
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(a.mesh.vertices[i][k] * factor, b.mesh.vertices[i][k]);
   }
 }
 
@@ -233,7 +234,7 @@ Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) 
     for (const Tet& t :
          {Tet{a, b, c, v}, Tet{a, b, v, tip}, Tet{b, c, v, tip}, Tet{c, a, v, tip}}) {
       ASSERT_GT(exact.orient3d(t[0], t[1], t[2], t[3]), 0);
-      s.input.tetrahedra.push_back(t);
+      s.input.mesh.tetrahedra.push_back(t);
     }
   };
   for (int i = 0; i < n; ++i) {
@@ -297,7 +298,7 @@ Scene make_ridge(std::uint64_t seed, double scale, double angle, double shift = 
   for (TetId t = 0; t < delaunay.capacity(); ++t) {
     if (!delaunay.alive(t) || delaunay.is_ghost(t)) continue;
     const VertexId* v = delaunay.vertices(t);
-    s.input.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
+    s.input.mesh.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
   }
   s.finish();
   return s;
@@ -384,10 +385,10 @@ TEST(Rounding, NothingToDo) {
   ASSERT_EQ(s.bad_when_rounded(), 0U);
   const RoundingResult r = run(s);
   check(s, r);
-  EXPECT_EQ(r.tetrahedra.size(), s.input.tetrahedra.size());
+  EXPECT_EQ(r.mesh.tetrahedra.size(), s.input.mesh.tetrahedra.size());
   EXPECT_EQ(r.repaired, 0U);
   for (std::size_t i = 0; i < r.vertices.size(); ++i) {
-    EXPECT_EQ(r.coordinates[i], s.points.nearest(r.vertices[i]));
+    EXPECT_EQ(r.mesh.vertices[i], s.points.nearest(r.vertices[i]));
   }
 }
 
@@ -409,14 +410,14 @@ TEST(Rounding, WhatCannotMoveIsCounted) {
   const std::size_t before = s.bad_when_rounded();
   ASSERT_GT(before, 0U);
   // With every face to be kept, there are no flips either.
-  s.input.boundary.clear();
-  for (const Tet& t : s.input.tetrahedra) {
-    for (const auto& f : kFace) s.input.boundary.push_back({t[f[0]], t[f[1]], t[f[2]]});
+  s.input.mesh.boundary.clear();
+  for (const Tet& t : s.input.mesh.tetrahedra) {
+    for (const auto& f : kFace) s.input.mesh.boundary.push_back({{t[f[0]], t[f[1]], t[f[2]]}, 0});
   }
   const RoundingResult r = run(s);
   EXPECT_EQ(r.repaired, 0U);
   EXPECT_EQ(r.inverted + r.flat, before);
-  EXPECT_EQ(r.tetrahedra, s.input.tetrahedra);
+  EXPECT_EQ(r.mesh.tetrahedra, s.input.mesh.tetrahedra);
   EXPECT_EQ(r.operations, 0U);
   EXPECT_EQ(r.inexact_operations, 0U);
 }
@@ -429,9 +430,9 @@ TEST(Rounding, WhereThereIsTooMuchToRepairNothingIs) {
   check(s, left);
   EXPECT_FALSE(left.tried);
   EXPECT_EQ(left.inverted + left.flat, before);
-  EXPECT_EQ(left.tetrahedra, s.input.tetrahedra);
+  EXPECT_EQ(left.mesh.tetrahedra, s.input.mesh.tetrahedra);
   for (std::size_t i = 0; i < left.vertices.size(); ++i) {
-    EXPECT_EQ(left.coordinates[i], s.points.nearest(left.vertices[i]));
+    EXPECT_EQ(left.mesh.vertices[i], s.points.nearest(left.vertices[i]));
   }
   const RoundingResult repaired = run(s, {.most = before});
   EXPECT_TRUE(repaired.tried);
@@ -470,7 +471,7 @@ TEST(Rounding, CoincidentVerticesAreSeparated) {
   for (int i = 0; i < 2; ++i) {
     const VertexId f = first + 3 * i, x = i == 0 ? v : w;
     const bool positive = exact.orient3d(f, f + 1, f + 2, x) > 0;
-    s.input.tetrahedra.push_back({f, positive ? f + 1 : f + 2, positive ? f + 2 : f + 1, x});
+    s.input.mesh.tetrahedra.push_back({f, positive ? f + 1 : f + 2, positive ? f + 2 : f + 1, x});
   }
   s.input.on_surface.assign(p.size(), 1);
   s.input.fixed.assign(p.size(), 1);
@@ -497,7 +498,7 @@ TEST(Rounding, EmptyMesh) {
   s.finish();
   const RoundingResult r = run(s);
   EXPECT_TRUE(r.vertices.empty());
-  EXPECT_TRUE(r.tetrahedra.empty());
+  EXPECT_TRUE(r.mesh.tetrahedra.empty());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 // Gives supports to the vertices of the surface `as_given`, to the points that the mesh has on it,
 // and to the points on the outer box, whose planes are numbered after the planes of the surface.
-void set_supports(const cdt::CdtResult& mesh, const Session& session,
+void set_supports(const ConformingMesh& mesh, const Session& session,
                   const SurfaceTopology& as_given, const PointStore& vertices, PointStore& points) {
   std::vector<std::vector<PlaneId>> planes(points.size());
   for (const SurfaceFace& face : mesh.boundary) {
@@ -43,7 +43,7 @@ void set_supports(const cdt::CdtResult& mesh, const Session& session,
 }
 
 // By exact signs, without supports.
-bool conforms(const cdt::CdtResult& mesh, const SurfaceTopology& as_given, const PointStore& points,
+bool conforms(const ConformingMesh& mesh, const SurfaceTopology& as_given, const PointStore& points,
               Control& control) {
   Predicates predicates(points);
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
@@ -89,7 +89,7 @@ SurfaceTopology topology_as_given(const Session& session) {
   return build(session, points);
 }
 
-bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& session) {
+bool go_back(const ConformingMesh& mesh, SurfaceTopology as_given, Session& session) {
   PointStore points;
   append_as_given(session.points, session.given, points);
   if (!conforms(mesh, as_given, points, session.control)) return false;
@@ -100,7 +100,7 @@ bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& sess
   return true;
 }
 
-cdt::CdtResult tetrahedrize_as_given(const cdt::CdtResult& mesh, Session& session) {
+cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, Session& session) {
   PointStore points;
   SurfaceTopology as_given = build(session, points);
   append_as_given(session.points, session.given, points);

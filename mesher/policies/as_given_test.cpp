@@ -88,7 +88,7 @@ struct Case {
   }
   std::size_t vertices(const cdt::CdtResult& result) const {
     std::set<VertexId> used;
-    for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
+    for (const auto& t : result.mesh.tetrahedra) used.insert(t.begin(), t.end());
     return used.size();
   }
 
@@ -110,7 +110,7 @@ TEST(AsGiven, IsTetrahedrizedWithTheVerticesOfTheStandIn) {
     Case c(surface);
     c.put_points_everywhere();
     const std::size_t facets = c.session.topology.facet_triangles.size();
-    const cdt::CdtResult mesh = c.mesh(), anew = tetrahedrize_as_given(mesh, c.session);
+    const cdt::CdtResult mesh = c.mesh(), anew = tetrahedrize_as_given(mesh.mesh, c.session);
     EXPECT_EQ(c.wrong(anew), "");
     EXPECT_GT(c.session.topology.facet_triangles.size(), facets);
     EXPECT_TRUE(c.session.given.empty());
@@ -127,7 +127,7 @@ TEST(AsGiven, PointsNearReturningEdgesAreOnThem) {
   c.put_points_everywhere();
   const cdt::CdtResult mesh = c.mesh();
   const std::size_t before = c.session.points.size();
-  tetrahedrize_as_given(mesh, c.session);
+  tetrahedrize_as_given(mesh.mesh, c.session);
   std::size_t on_edges = 0;
   for (auto v = static_cast<VertexId>(before); v < c.session.points.size(); ++v) {
     on_edges += c.session.points.definition(v).kind == PointKind::on_segment;
@@ -153,7 +153,7 @@ TEST(AsGiven, PointsThatTheSurfaceComesUponAreLeftOut) {
     ++added;
   }
   EXPECT_GT(added, 10U);
-  EXPECT_EQ(c.wrong(tetrahedrize_as_given(c.mesh(), c.session)), "");
+  EXPECT_EQ(c.wrong(tetrahedrize_as_given(c.mesh().mesh, c.session)), "");
 }
 
 // In a facet, nearer to an edge that stays than a point of another triangle can be placed: the
@@ -171,7 +171,7 @@ TEST(AsGiven, PointsThatComeUponAnEdgeAreLeftOut) {
     ++added;
   }
   EXPECT_EQ(added, 12U);
-  EXPECT_EQ(c.wrong(tetrahedrize_as_given(c.mesh(), c.session)), "");
+  EXPECT_EQ(c.wrong(tetrahedrize_as_given(c.mesh().mesh, c.session)), "");
 }
 
 }  // namespace

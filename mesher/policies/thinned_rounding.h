@@ -1,9 +1,9 @@
 // Policy: fewer points where the doubles to be written are too coarse for all of them.
 #pragma once
 
-#include "mesher/cdt/cdt.h"
 #include "mesher/results/recorder.h"
 #include "mesher/run/session.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::policies {
 
@@ -14,6 +14,6 @@ namespace delmesher::policies {
 // eighth of the mesh, are left by plain rounding, points are taken out before anything is repaired,
 // and where the first repairs leave more than a few, before others are tried. What is left then may
 // be the mesh of the input's vertices alone (plain_without_points).
-void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder);
+void round_and_record(ConformingMesh final, Session& session, Recorder& recorder);
 
 }  // namespace delmesher::policies

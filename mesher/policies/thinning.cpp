@@ -21,7 +21,7 @@ bool has(const Simplex& simplex, VertexId v) {
 class Thinning {
  public:
   Thinning(std::size_t fixed_vertices, const LocalFrame& frame, const PointStore& points,
-           Predicates& predicates, cdt::CdtResult& mesh)
+           Predicates& predicates, ConformingMesh& mesh)
       : fixed_vertices_(fixed_vertices),
         frame_(frame),
         points_(points),
@@ -77,18 +77,15 @@ class Thinning {
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
       if (mesh_.tetrahedra[t][0] == kNone) continue;
       mesh_.tetrahedra[tets] = mesh_.tetrahedra[t];
-      mesh_.inside[tets++] = mesh_.inside[t];
+      mesh_.region[tets++] = mesh_.region[t];
     }
     for (const SurfaceFace& face : mesh_.boundary) {
       if (face.vertices[0] != kNone) mesh_.boundary[faces++] = face;
     }
     mesh_.tetrahedra.resize(tets);
-    mesh_.inside.resize(tets);
+    mesh_.region.resize(tets);
     mesh_.boundary.resize(faces);
     mesh_.repeated_faces.clear();
-    const auto gone = [&](VertexId v) { return tets_[v].empty(); };
-    for (std::vector<VertexId>& chain : mesh_.chain) std::erase_if(chain, gone);
-    std::erase_if(mesh_.steiner, gone);
   }
 
  private:
@@ -234,7 +231,7 @@ class Thinning {
   const LocalFrame& frame_;
   const PointStore& points_;
   Predicates& predicates_;
-  cdt::CdtResult& mesh_;
+  ConformingMesh& mesh_;
   std::vector<std::vector<std::uint32_t>> tets_, faces_;  // around each vertex
 };
 
@@ -242,7 +239,7 @@ class Thinning {
 
 std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fixed_vertices,
                      const LocalFrame& frame, const PointStore& points, Predicates& predicates,
-                     Control& control, cdt::CdtResult& mesh) {
+                     Control& control, ConformingMesh& mesh) {
   Thinning thinning(fixed_vertices, frame, points, predicates, mesh);
   std::vector<VertexId> left = thinning.removable_around(around, rings);
   const std::size_t candidates = left.size();

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "mesher/base/control.h"
-#include "mesher/cdt/cdt.h"
 #include "mesher/geometry/local_frame.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::policies {
 
@@ -19,6 +19,6 @@ namespace delmesher::policies {
 // gone.
 std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fixed_vertices,
                      const LocalFrame& frame, const PointStore& points, Predicates& predicates,
-                     Control& control, cdt::CdtResult& mesh);
+                     Control& control, ConformingMesh& mesh);
 
 }  // namespace delmesher::policies

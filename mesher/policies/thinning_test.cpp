@@ -19,13 +19,13 @@ std::size_t input_vertices(const Model& model) {
   return model.topology.vertex_half_edge.size();
 }
 
-std::size_t thin(Model& model, std::span<const VertexId> around, int rings, cdt::CdtResult& mesh) {
+std::size_t thin(Model& model, std::span<const VertexId> around, int rings, ConformingMesh& mesh) {
   return thin_out(around, rings, input_vertices(model), {}, model.points, model.predicates,
                   model.control, mesh);
 }
 
-std::string wrong(const Model& model, const cdt::CdtResult& mesh) {
-  return rational::Checker(model.topology, model.points, mesh, false).run();
+std::string wrong(const Model& model, const ConformingMesh& mesh) {
+  return rational::Checker(model.topology, model.points, mesh).run();
 }
 
 // The rest conforms as before and fills the same hull, whatever has gone.
@@ -36,7 +36,7 @@ TEST(Thinning, KeepsTheSurfaceAndTheHull) {
       Model model(s);
       ASSERT_TRUE(model.valid);
       cdt::test_models::enrich(model, density, seed++);
-      cdt::CdtResult mesh = model.run();
+      ConformingMesh mesh = model.run().mesh;
       const mpq_class hull = volume(model.points, mesh);
       const std::set<VertexId> before = vertices(mesh);
       const std::vector<VertexId> all(before.begin(), before.end());
@@ -73,7 +73,7 @@ TEST(Thinning, KeepsAHullThatIsTheSurface) {
   Model model(box(0, 1));
   ASSERT_TRUE(model.valid);
   split_edges(model, {0.5});
-  cdt::CdtResult mesh = model.run();
+  ConformingMesh mesh = model.run().mesh;
   const std::set<VertexId> before = vertices(mesh);
   const std::vector<VertexId> all(before.begin(), before.end());
   EXPECT_GT(thin(model, all, 0, mesh), 0U);
@@ -82,7 +82,7 @@ TEST(Thinning, KeepsAHullThatIsTheSurface) {
 }
 
 // How many tetrahedra are inverted or flat on nearest doubles.
-std::size_t bad_as_written(const Model& model, const cdt::CdtResult& mesh) {
+std::size_t bad_as_written(const Model& model, const ConformingMesh& mesh) {
   return static_cast<std::size_t>(
       std::count_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), [&](const auto& t) {
         rational::Vector x[4];
@@ -99,7 +99,7 @@ TEST(Thinning, LeavesNoMoreThatDoublesInvert) {
   Model model(box(1.1, 2.3));
   ASSERT_TRUE(model.valid);
   split_edges(model, {0.3, 0.3 + 0x1p-53, 0.3 + 0x1p-52});
-  cdt::CdtResult mesh = model.run();
+  ConformingMesh mesh = model.run().mesh;
   const std::size_t bad = bad_as_written(model, mesh);
   EXPECT_GT(bad, 0U);  // otherwise the test says nothing
   const std::set<VertexId> before = vertices(mesh);
@@ -114,14 +114,15 @@ TEST(Thinning, LeavesWhatIsNeeded) {
   Model model(twisted_prism(3, 0.5, 1, true));
   ASSERT_TRUE(model.valid);
   cdt::test_models::enrich(model, 2, 1);
-  cdt::CdtResult mesh = model.run();
+  ConformingMesh mesh = model.run().mesh;
   const std::set<VertexId> before = vertices(mesh);
   const std::vector<VertexId> all(before.begin(), before.end());
   EXPECT_GT(thin(model, all, 0, mesh), 0U);
   EXPECT_EQ(wrong(model, mesh), "");
   std::set<VertexId> inside;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    if (mesh.inside[t] != 0) inside.insert(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());
+    if (mesh.region[t] != kOutside)
+      inside.insert(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());
   }
   EXPECT_GT(inside.size(), 6U);
 }
@@ -130,7 +131,7 @@ TEST(Thinning, ReachesAsFarAsItIsTold) {
   Model model(box(0, 1));
   ASSERT_TRUE(model.valid);
   cdt::test_models::enrich(model, 3, 7);
-  const cdt::CdtResult given = model.run();
+  const ConformingMesh given = model.run().mesh;
   const std::set<VertexId> before = vertices(given);
   std::map<VertexId, int> distance{{0, 0}};  // from the input vertex 0, in edges
   for (int ring = 1; ring <= 2; ++ring) {
@@ -143,7 +144,7 @@ TEST(Thinning, ReachesAsFarAsItIsTold) {
   }
   const std::vector<VertexId> around{0};
   for (const int rings : {0, 1, 2}) {
-    cdt::CdtResult mesh = given;
+    ConformingMesh mesh = given;
     const std::size_t gone = thin(model, around, rings, mesh);
     EXPECT_EQ(gone > 0, rings > 0);
     const std::set<VertexId> after = vertices(mesh);

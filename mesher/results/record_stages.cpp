@@ -102,17 +102,18 @@ void record_refined(const chamfer::ChamferResult& chamfered, const refine::Refin
   }
 }
 
-void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record) {
-  for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
-    record.final.push_back({cdt.tetrahedra[n], cdt.inside[n] != 0});
+void record_final(const ConformingMesh& mesh, const SurfaceTopology& topology,
+                  ExactRecord& record) {
+  for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+    record.final.push_back({mesh.tetrahedra[n], mesh.region[n] != kOutside});
   }
-  for (const SurfaceFace& face : cdt.boundary) {
+  for (const SurfaceFace& face : mesh.boundary) {
     record.final_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2],
                                    topology.facet_triangles[face.facet][0]});
   }
 }
 
-void record_changed(const cdt::CdtResult& changed, const SurfaceTopology& topology,
+void record_changed(const ConformingMesh& changed, const SurfaceTopology& topology,
                     ExactRecord& record) {
   if (record.unrepaired.empty()) {
     record.unrepaired = std::move(record.final);
@@ -128,9 +129,9 @@ void record_repaired(const output::RoundingResult& rounded, Region region, Exact
   if (record.unrepaired.empty()) record.unrepaired = record.final;
   std::erase_if(record.final,
                 [&](const ExactRecord::Tet& t) { return region == Region::hull || t.inside; });
-  for (std::size_t n = 0; n < rounded.tetrahedra.size(); ++n) {
-    ExactRecord::Tet tet{{}, rounded.inside[n] != 0};
-    for (int i = 0; i < 4; ++i) tet.vertices[i] = rounded.vertices[rounded.tetrahedra[n][i]];
+  for (std::size_t n = 0; n < rounded.mesh.tetrahedra.size(); ++n) {
+    ExactRecord::Tet tet{{}, rounded.mesh.inside[n] != 0};
+    for (int i = 0; i < 4; ++i) tet.vertices[i] = rounded.vertices[rounded.mesh.tetrahedra[n][i]];
     record.final.push_back(tet);
   }
 }

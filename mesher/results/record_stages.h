@@ -2,12 +2,12 @@
 // are ids of the store until record_points renumbers them.
 #pragma once
 
-#include "mesher/cdt/cdt.h"
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
 #include "mesher/output/rounding.h"
 #include "mesher/refine/refine.h"
 #include "mesher/results/in_force.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::results {
 
@@ -21,10 +21,10 @@ void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& forc
                     ExactRecord& record);
 void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
-void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
+void record_final(const ConformingMesh& mesh, const SurfaceTopology& topology, ExactRecord& record);
 // Replaces the final tetrahedra by what local operations made of them; those before the first are
 // kept as `unrepaired`.
-void record_changed(const cdt::CdtResult& changed, const SurfaceTopology& topology,
+void record_changed(const ConformingMesh& changed, const SurfaceTopology& topology,
                     ExactRecord& record);
 // Replaces the final tetrahedra that were handed to rounding by those that it returned.
 void record_repaired(const output::RoundingResult& rounded, Region region, ExactRecord& record);

@@ -100,16 +100,16 @@ void Recorder::tetrahedrized(const cdt::CdtResult& cdt) {
   result_.statistics.cdt_restarts = cdt.counters.facet_restarts;
   if (!exact()) return;
   if (result_.exact.facets.empty()) record_facets(session_.topology, nullptr, result_.exact);
-  record_final(cdt, session_.topology, result_.exact);
+  record_final(cdt.mesh, session_.topology, result_.exact);
 }
 
-void Recorder::improved(const cdt::CdtResult& cdt) {
-  if (exact()) record_changed(cdt, session_.topology, result_.exact);
+void Recorder::improved(const ConformingMesh& mesh) {
+  if (exact()) record_changed(mesh, session_.topology, result_.exact);
 }
 
-void Recorder::thinned(const cdt::CdtResult& cdt, std::uint64_t vertices) {
+void Recorder::thinned(const ConformingMesh& mesh, std::uint64_t vertices) {
   result_.statistics.rounding_thinned = vertices;
-  if (exact()) record_changed(cdt, session_.topology, result_.exact);
+  if (exact()) record_changed(mesh, session_.topology, result_.exact);
 }
 
 void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing) {
@@ -117,7 +117,7 @@ void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing) {
   result_.statistics.diagonals_missing = missing;
 }
 
-void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) {
+void Recorder::written(output::RoundingResult rounded) {
   Statistics& s = result_.statistics;
   s.rounding_inverted = rounded.inverted;
   s.rounding_flat = rounded.flat;
@@ -130,13 +130,11 @@ void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) 
         "repairs of rounding that hold as written, but not on exact coordinates: " +
         std::to_string(s.rounding_inexact) + "; features there are a few roundings apart");
   }
+  TetMesh& mesh = rounded.mesh;
   std::uint64_t interior = 0;
-  for (const std::uint8_t inside : rounded.inside) interior += inside;
-  // After local operations they are other tetrahedra.
-  if (rounded.operations > 0) exact_mesh.repeated_faces.clear();
-  s.final =
-      output::mesh_statistics(rounded.coordinates, rounded.tetrahedra, exact_mesh.repeated_faces,
-                              rounded.vertices.size(), interior, session_.control);
+  for (const std::uint8_t inside : mesh.inside) interior += inside;
+  s.final = output::mesh_statistics(mesh.vertices, mesh.tetrahedra, rounded.repeated_faces,
+                                    mesh.vertices.size(), interior, session_.control);
   if (exact()) {
     if (rounded.operations > 0) {
       record_repaired(rounded, session_.options.region, result_.exact);
@@ -144,16 +142,12 @@ void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) 
     record_points(session_.points, session_.stand_in ? &*session_.stand_in : nullptr,
                   session_.input_vertices(), rounded, result_.exact);
   }
-  TetMesh& mesh = result_.mesh;
-  mesh.vertices = std::move(rounded.coordinates);
-  mesh.tetrahedra = std::move(rounded.tetrahedra);
-  mesh.inside = std::move(rounded.inside);
-  mesh.boundary = std::move(rounded.boundary);
   const SurfaceTopology& topology = session_.topology;
-  for (const FacetId f : exact_mesh.facet_of_boundary) {
-    mesh.boundary_facets.push_back(topology.facet_triangles[f][0]);
-    mesh.boundary_labels.push_back(topology.labels[topology.facet_triangles[f][0]]);
+  for (std::uint32_t& facet : mesh.boundary_facets) {
+    facet = topology.facet_triangles[facet][0];
+    mesh.boundary_labels.push_back(topology.labels[facet]);
   }
+  result_.mesh = std::move(mesh);
 }
 
 void Recorder::finish() {

@@ -4,12 +4,15 @@
 
 #include <cstdint>
 
+#include "mesher/cdt/cdt.h"
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
+#include "mesher/output/rounding.h"
+#include "mesher/refine/refine.h"
 #include "mesher/results/in_force.h"
-#include "mesher/results/mesh_to_write.h"
 #include "mesher/run/session.h"
 #include "mesher/surface/validity.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::results {
 
@@ -28,9 +31,9 @@ class Recorder {
   void plain_taken() { result_.statistics.enriched = false; }
   void tetrahedrized(const cdt::CdtResult& cdt);
   // The same mesh after local operations.
-  void improved(const cdt::CdtResult& cdt);
+  void improved(const ConformingMesh& mesh);
   // `vertices` in all were taken out again before rounding.
-  void thinned(const cdt::CdtResult& cdt, std::uint64_t vertices);
+  void thinned(const ConformingMesh& mesh, std::uint64_t vertices);
   // Edges of the surface as given came back by local operations, but for `missing`.
   void put_back(std::uint64_t diagonals, std::uint64_t missing);
   // Points on edges that came back were taken out for fewer tetrahedra.
@@ -40,7 +43,7 @@ class Recorder {
   // The mesh is of no use, because it cannot be put back.
   void given_up() { result_.statistics.planar_given_up = true; }
   // The mesh itself, as written.
-  void written(MeshToWrite& exact, output::RoundingResult rounded);
+  void written(output::RoundingResult rounded);
   // Times and counters, however the run ended; without a mesh if it failed.
   void finish();
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesher/output/statistics.h"
-#include "mesher/results/mesh_to_write.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::results {
 namespace {
@@ -43,9 +43,9 @@ MeshStatistics refined_statistics(const refine::RefineResult& refined, const Poi
 
 MeshStatistics interior_statistics(const cdt::CdtResult& cdt, const PointStore& points,
                                    Control& control) {
-  const auto is_inside = [&](std::size_t n) { return cdt.inside[n] != 0; };
-  return region_statistics(cdt.tetrahedra, is_inside, cdt.repeated_faces, points, Region::interior,
-                           control);
+  const auto is_inside = [&](std::size_t n) { return cdt.mesh.region[n] != kOutside; };
+  return region_statistics(cdt.mesh.tetrahedra, is_inside, cdt.mesh.repeated_faces, points,
+                           Region::interior, control);
 }
 
 }  // namespace delmesher::results

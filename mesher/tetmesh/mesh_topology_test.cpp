@@ -1,4 +1,4 @@
-#include "mesher/improve/work_mesh.h"
+#include "mesher/tetmesh/mesh_topology.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher::improve {
+namespace delmesher::tetmesh {
 namespace {
 
 // Two tetrahedra on both sides of the face 0 1 2, the second one outside.
@@ -16,11 +16,11 @@ struct Pair {
   std::vector<RegionId> region = {1, 0};
   std::vector<SurfaceFace> boundary = {{{0, 1, 2}, 7}};
 
-  WorkMesh mesh() const { return {tetrahedra, region, boundary, 5}; }
+  MeshTopology mesh() const { return {tetrahedra, region, boundary, 5}; }
 };
 
 // Three tetrahedra around the edge 3 4, inside a wall of six faces.
-WorkMesh three_around_an_edge() {
+MeshTopology three_around_an_edge() {
   const std::vector<Tet> tetrahedra = {{0, 1, 3, 4}, {1, 2, 3, 4}, {2, 0, 3, 4}};
   const std::vector<RegionId> region = {1, 1, 1};
   std::vector<SurfaceFace> boundary;
@@ -31,15 +31,15 @@ WorkMesh three_around_an_edge() {
   return {tetrahedra, region, boundary, 5};
 }
 
-std::vector<TetId> star(const WorkMesh& mesh, VertexId v) {
+std::vector<TetId> star(const MeshTopology& mesh, VertexId v) {
   std::vector<TetId> result;
   mesh.star(v, result);
   std::sort(result.begin(), result.end());
   return result;
 }
 
-TEST(WorkMesh, KnowsNeighboursAndFacets) {
-  const WorkMesh mesh = Pair().mesh();
+TEST(MeshTopology, KnowsNeighboursAndFacets) {
+  const MeshTopology mesh = Pair().mesh();
   mesh.validate();
   EXPECT_EQ(mesh.neighbor(0, 3), 1U);
   EXPECT_EQ(mesh.mirror(0, 3), 3);
@@ -51,14 +51,14 @@ TEST(WorkMesh, KnowsNeighboursAndFacets) {
   EXPECT_EQ(star(mesh, 3), (std::vector<TetId>{0}));
 }
 
-TEST(WorkMesh, RefusesAFaceOfThree) {
+TEST(MeshTopology, RefusesAFaceOfThree) {
   Pair pair;
   pair.tetrahedra.push_back({0, 1, 2, 4});
   pair.region.push_back(0);
   EXPECT_THROW(pair.mesh(), InternalError);
 }
 
-TEST(WorkMesh, RegionsChangeAtTheSurfaceAlone) {
+TEST(MeshTopology, RegionsChangeAtTheSurfaceAlone) {
   Pair same_side;
   same_side.region = {1, 1};
   EXPECT_NO_THROW(same_side.mesh().validate());
@@ -71,8 +71,8 @@ TEST(WorkMesh, RegionsChangeAtTheSurfaceAlone) {
   EXPECT_NO_THROW(no_surface.mesh().validate());
 }
 
-TEST(WorkMesh, ReplacesAndKeepsTheOuterFaces) {
-  WorkMesh mesh = three_around_an_edge();
+TEST(MeshTopology, ReplacesAndKeepsTheOuterFaces) {
+  MeshTopology mesh = three_around_an_edge();
   mesh.validate();
   const std::vector<TetId> all = {0, 1, 2};
   const std::vector<CreatedTet> two = {{{0, 1, 2, 4}, 1}, {{1, 0, 2, 3}, 1}};
@@ -88,13 +88,13 @@ TEST(WorkMesh, ReplacesAndKeepsTheOuterFaces) {
   }
 }
 
-TEST(WorkMesh, ForgetsAVertexThatIsSwallowed) {
+TEST(MeshTopology, ForgetsAVertexThatIsSwallowed) {
   // Four tetrahedra around 4 become one.
   const std::vector<Tet> tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
   const std::vector<RegionId> region = {1, 1, 1, 1};
   std::vector<SurfaceFace> boundary = {
       {{0, 1, 2}, 0}, {{0, 3, 1}, 1}, {{1, 3, 2}, 2}, {{0, 2, 3}, 3}};
-  WorkMesh mesh(tetrahedra, region, boundary, 5);
+  MeshTopology mesh(tetrahedra, region, boundary, 5);
   mesh.validate();
   const std::vector<TetId> all = {0, 1, 2, 3};
   const std::vector<CreatedTet> one = {{{0, 1, 2, 3}, 1}};
@@ -104,12 +104,12 @@ TEST(WorkMesh, ForgetsAVertexThatIsSwallowed) {
   EXPECT_NE(mesh.incident(3), kNone);
 }
 
-TEST(WorkMesh, ContractsAnEdge) {
+TEST(MeshTopology, ContractsAnEdge) {
   const std::vector<Tet> tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
   const std::vector<RegionId> region = {1, 1, 1, 1};
   std::vector<SurfaceFace> boundary = {
       {{0, 1, 2}, 0}, {{0, 3, 1}, 1}, {{1, 3, 2}, 2}, {{0, 2, 3}, 3}};
-  WorkMesh mesh(tetrahedra, region, boundary, 5);
+  MeshTopology mesh(tetrahedra, region, boundary, 5);
   std::vector<TetId> around;
   mesh.star(4, around);
   mesh.contract(4, 0, around);
@@ -125,4 +125,4 @@ TEST(WorkMesh, ContractsAnEdge) {
 }
 
 }  // namespace
-}  // namespace delmesher::improve
+}  // namespace delmesher::tetmesh

@@ -1,5 +1,6 @@
-// A tetrahedral mesh that local operations change: its tetrahedra, their neighbours, and which
-// faces are on the surface. It knows no coordinates. Vertices have numbers of their own.
+// The tetrahedra of a mesh that local operations change: their neighbours, the regions that they
+// are in, and which faces are on the surface. It knows no coordinates. Vertices have numbers of
+// their own.
 //
 // Invariants (validate()):
 //  - a face has one tetrahedron, or two that name each other as neighbours across it;
@@ -15,15 +16,9 @@
 
 #include "mesher/base/epoch.h"
 #include "mesher/delaunay/tetrahedrization.h"
-#include "mesher/surface/surface_face.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
-namespace delmesher::improve {
-
-using Tet = std::array<VertexId, 4>;
-
-// Numbers of regions: kOutside, or a part of the inside.
-using RegionId = std::uint32_t;
-inline constexpr RegionId kOutside = 0;
+namespace delmesher::tetmesh {
 
 // A new tetrahedron of a local operation.
 struct CreatedTet {
@@ -41,10 +36,10 @@ inline std::array<int, 2> opposite_edge(int i, int j) {
   return {kOpposite[i][j][0], kOpposite[i][j][1]};
 }
 
-class WorkMesh {
+class MeshTopology {
  public:
-  WorkMesh(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
-           std::span<const SurfaceFace> boundary, std::size_t vertices);
+  MeshTopology(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
+               std::span<const SurfaceFace> boundary, std::size_t vertices);
 
   std::size_t slots() const { return tet_.size(); }
   std::size_t tetrahedra() const { return tet_.size() - free_.size(); }
@@ -112,4 +107,4 @@ class WorkMesh {
   std::vector<VertexId> vertices_;
 };
 
-}  // namespace delmesher::improve
+}  // namespace delmesher::tetmesh

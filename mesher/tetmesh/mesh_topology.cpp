@@ -1,4 +1,4 @@
-#include "mesher/improve/work_mesh.h"
+#include "mesher/tetmesh/mesh_topology.h"
 
 #include <algorithm>
 #include <tuple>
@@ -6,10 +6,10 @@
 #include "mesher/base/check.h"
 #include "mesher/base/face_key.h"
 
-namespace delmesher::improve {
+namespace delmesher::tetmesh {
 
-WorkMesh::WorkMesh(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
-                   std::span<const SurfaceFace> boundary, std::size_t vertices)
+MeshTopology::MeshTopology(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
+                           std::span<const SurfaceFace> boundary, std::size_t vertices)
     : tet_(std::move(tetrahedra)),
       neighbor_(tet_.size(), {kNone, kNone, kNone, kNone}),
       facet_(tet_.size(), {kNone, kNone, kNone, kNone}),
@@ -23,7 +23,7 @@ WorkMesh::WorkMesh(std::vector<Tet> tetrahedra, std::span<const RegionId> region
 }
 
 // Faces are matched vertex by vertex: each is listed with its smallest one.
-void WorkMesh::link(std::span<const SurfaceFace> boundary) {
+void MeshTopology::link(std::span<const SurfaceFace> boundary) {
   const std::size_t vertices = incident_.size();
   struct Entry {
     VertexId middle, largest;
@@ -76,7 +76,7 @@ void WorkMesh::link(std::span<const SurfaceFace> boundary) {
   }
 }
 
-void WorkMesh::star(VertexId v, std::vector<TetId>& star) const {
+void MeshTopology::star(VertexId v, std::vector<TetId>& star) const {
   star.clear();
   next_epoch(epoch_, mark_);
   star.push_back(incident_[v]);
@@ -93,7 +93,7 @@ void WorkMesh::star(VertexId v, std::vector<TetId>& star) const {
   }
 }
 
-void WorkMesh::contract(VertexId v, VertexId w, std::span<const TetId> star) {
+void MeshTopology::contract(VertexId v, VertexId w, std::span<const TetId> star) {
   for (const TetId t : star) {
     const int i = index_of(t, v), j = index_of(t, w);
     if (j < 0) {
@@ -122,7 +122,7 @@ void WorkMesh::contract(VertexId v, VertexId w, std::span<const TetId> star) {
   incident_[v] = kNone;
 }
 
-TetId WorkMesh::take_slot() {
+TetId MeshTopology::take_slot() {
   if (!free_.empty()) {
     const TetId t = free_.back();
     free_.pop_back();
@@ -137,14 +137,14 @@ TetId WorkMesh::take_slot() {
   return t;
 }
 
-void WorkMesh::join(const FaceEntry& a, const FaceEntry& b) {
+void MeshTopology::join(const FaceEntry& a, const FaceEntry& b) {
   for (const auto& [from, to] : {std::pair(a.side, b.side), std::pair(b.side, a.side)}) {
     if (from != kNone) neighbor_[from / 4][from % 4] = to;
   }
 }
 
-void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
-                       std::span<const SurfaceFace> faces) {
+void MeshTopology::replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
+                           std::span<const SurfaceFace> faces) {
   next_epoch(epoch_, mark_);
   for (const TetId t : removed) mark_[t] = epoch_;
   faces_.clear();
@@ -204,7 +204,7 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
   }
 }
 
-void WorkMesh::validate() const {
+void MeshTopology::validate() const {
   for (TetId t = 0; t < tet_.size(); ++t) {
     if (!alive(t)) continue;
     for (int i = 0; i < 4; ++i) {
@@ -231,4 +231,4 @@ void WorkMesh::validate() const {
   }
 }
 
-}  // namespace delmesher::improve
+}  // namespace delmesher::tetmesh

@@ -1,0 +1,23 @@
+// What is wanted of the tetrahedra.
+#pragma once
+
+#include "mesher/geometry/size_field.h"
+#include "mesher/improve/improve.h"
+#include "mesher/improve/quality.h"
+
+namespace delmesher::improve {
+
+struct Goals {
+  Quality target;  // tetrahedra as good as this are left alone
+  // Squared sines: no face angle below `promised` and no dihedral angle flatter than `floor` is
+  // made, unless one as bad was there.
+  float promised = 0, floor = 0;
+  double max_edge = 0;               // no edge longer than this is made; 0: any
+  const SizeField* sizes = nullptr;  // nor than these allow; null: any
+  bool as_given = false;             // tetrahedra are positive on the surface as given, too
+  bool everywhere = false;           // tetrahedra outside count as well
+};
+
+Goals goals_of(const ImproveOptions& options);
+
+}  // namespace delmesher::improve

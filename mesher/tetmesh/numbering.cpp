@@ -1,0 +1,86 @@
+#include "mesher/tetmesh/numbering.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "mesher/base/spatial_sort.h"
+
+namespace delmesher::tetmesh {
+namespace {
+
+// The vertices in ascending order, but for the last two where that would turn it inside out.
+Tet in_order(Tet t) {
+  bool turned = false;
+  for (int last = 3; last > 0; --last) {
+    for (int i = 0; i < last; ++i) {
+      if (t[i] < t[i + 1]) continue;
+      std::swap(t[i], t[i + 1]);
+      turned = !turned;
+    }
+  }
+  if (turned) std::swap(t[2], t[3]);
+  return t;
+}
+
+}  // namespace
+
+std::vector<VertexId> vertices_in_order(const ConformingMesh& mesh, const PointStore& points) {
+  std::vector<std::uint8_t> used(points.size(), 0);
+  for (const Tet& t : mesh.tetrahedra) {
+    for (const VertexId v : t) used[v] = 1;
+  }
+  std::vector<VertexId> order;
+  std::vector<Vec3> coordinates;
+  coordinates.reserve(points.size());
+  for (VertexId v = 0; v < points.size(); ++v) {
+    if (used[v] != 0) order.push_back(v);
+    coordinates.push_back(points.nearest(v));
+  }
+  hilbert_sort(order, coordinates);
+  return order;
+}
+
+MeshTopology topology_of(ConformingMesh mesh, std::span<const VertexId> point, std::size_t points) {
+  std::vector<VertexId> number(points, kNone);
+  for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
+  {  // gone before the topology finds its neighbours, which takes the most memory
+    std::vector<std::pair<Tet, RegionId>> sorted;
+    sorted.reserve(mesh.tetrahedra.size());
+    for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+      Tet t = mesh.tetrahedra[n];
+      for (VertexId& v : t) v = number[v];
+      sorted.emplace_back(in_order(t), mesh.region[n]);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t n = 0; n < sorted.size(); ++n) {
+      std::tie(mesh.tetrahedra[n], mesh.region[n]) = sorted[n];
+    }
+  }
+  for (SurfaceFace& face : mesh.boundary) {
+    for (VertexId& v : face.vertices) v = number[v];
+  }
+  return {std::move(mesh.tetrahedra), mesh.region, mesh.boundary, point.size()};
+}
+
+ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point) {
+  const auto is_told_from = [&](TetId t, TetId u) {
+    return u == kNone || std::pair(topology.region(u), u) < std::pair(topology.region(t), t);
+  };
+  ConformingMesh mesh;
+  for (TetId t = 0; t < topology.slots(); ++t) {
+    if (!topology.alive(t)) continue;
+    Tet v;
+    for (int i = 0; i < 4; ++i) v[i] = point[topology.tet(t)[i]];
+    mesh.tetrahedra.push_back(v);
+    mesh.region.push_back(topology.region(t));
+    for (int i = 0; i < 4; ++i) {
+      if (topology.facet(t, i) == kNone || !is_told_from(t, topology.neighbor(t, i))) continue;
+      mesh.boundary.push_back(
+          {{v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]}, topology.facet(t, i)});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace delmesher::tetmesh
