@@ -6,6 +6,9 @@ folder may lie beside the file before it. What a row calls a function has to be 
 or in the header or source of the same name. In a table "to change", "look at" what looks like a name of the code has to
 be a word of one of the files that the row names.
 
+Links within the tree must lead somewhere, and so must the files that CONTRIBUTING.md names with a folder: relative to the root, or to the
+folder of the project that the sentence is about.
+
 Usage: check_readmes.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
 """
 import os
@@ -16,6 +19,9 @@ HEAD = "| question | file | functions |"
 PROSE = "| to change | look at |"
 CODE = re.compile(r"`([^`]+)`")
 NAME = re.compile(r"(?:\w+::)*\w*(?:::\w|[a-z][A-Z_]|_[a-z])\w*$")  # with a capital or an underscore inside
+LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+FILE = re.compile(r"`((?:[\w-]+/)+[\w-]+\.(?:cpp|h|pyi?|js|txt|csv|md))`")
+ROOMS = ("", "mesher", "oracles", "reports", "python")
 COMMENTS = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 
 
@@ -77,11 +83,26 @@ def check_prose(cells, folder, root):
             yield "%s is in no file that the row names" % name
 
 
+def check_places(line, path, root):
+    folder = os.path.dirname(path)
+    for link in LINK.findall(line):
+        if not os.path.exists(os.path.join(folder, link)):
+            yield "a link leads nowhere: " + link
+    if os.path.basename(path) == "CONTRIBUTING.md":
+        for name in FILE.findall(line):
+            if not any(os.path.isfile(os.path.join(root, room, name)) for room in ROOMS):
+                yield "there is no file " + name
+
+
 def check_readme(path, root):
     with open(path, encoding="utf-8") as stream:
         lines = stream.read().split("\n")
-    check = None
+    check, in_code = None, False
     for number, line in enumerate(lines, 1):
+        in_code ^= line.startswith("```")
+        if not in_code:
+            for reason in check_places(line, path, root):
+                yield number, reason
         if line in (HEAD, PROSE):
             check = check_functions if line == HEAD else check_prose
         elif not line.startswith("|"):

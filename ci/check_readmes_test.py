@@ -25,6 +25,7 @@ GOOD = {
     "no function": HEAD + "| levels | `refine/level.cpp` | |",
     "prose": PROSE + "| levels | `level_of` (`refine/level.cpp`), in the worst case `kWorst` (`mesher/refine/goal`); `goal_test` |",
     "another table": "| file |\n|---|\n| `gone.cpp`: `gone` |",
+    "links": "[oracles](../oracles/README.md#what), [elsewhere](https://gone.example/x), ![goal](refine/goal.h)\n```\n[code](gone)\n```",
 }
 BAD = {
     "no such file": (HEAD + "| how bad | `refine/gone.cpp` | |", "no file refine/gone.cpp"),
@@ -34,15 +35,16 @@ BAD = {
     "of another class": (HEAD + "| how bad | `refine/goal.cpp` | `Level::badness` |", "Level::badness is not declared"),
     "two cells": (HEAD + "| how bad | `refine/goal.cpp` |", "three cells"),
     "prose about no file": (PROSE + "| levels | `level_of` says it |", "level_of is in no file"),
+    "a link that leads nowhere": ("\n\n[goals](refine/goals.h#what)", "a link leads nowhere: refine/goals.h"),
     "prose about a file that is gone": (PROSE + "| levels | `Goal::badness` (`refine/goals.cpp`) |", "no file refine/goals.cpp"),
 }
 
 
-def complaints(readme):
-    """The exit code, and what is printed about a tree with this README in mesher/."""
+def complaints(readme, path="mesher/README.md"):
+    """The exit code, and what is printed about a tree with this text at the path."""
     with tempfile.TemporaryDirectory() as root:
         right = {"oracles/README.md": GOOD["a function"].replace("refine/", "../mesher/refine/")}
-        for path, text in {**SOURCES, **right, "mesher/README.md": readme}.items():
+        for path, text in {**SOURCES, **right, path: readme}.items():
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
             with open(os.path.join(root, path), "w", encoding="utf-8") as stream:
                 stream.write(text + "\n")
@@ -65,6 +67,10 @@ class CheckReadmes(unittest.TestCase):
                 self.assertEqual(code, 1)
                 self.assertIn("mesher/README.md:3: ", said)
                 self.assertIn(reason, said)
+
+    def test_files_that_contributing_names_have_to_exist(self):
+        self.assertEqual(complaints("`refine/goal.cpp`, `mesher/refine/goal.h`, `goal.cpp`, `refine/*.h`", "CONTRIBUTING.md"), (0, ""))
+        self.assertEqual(complaints("`refine/goals.cpp`", "CONTRIBUTING.md"), (1, "CONTRIBUTING.md:1: there is no file refine/goals.cpp\n"))
 
     def test_a_tree_without_tables_does_not(self):
         with tempfile.TemporaryDirectory() as root, contextlib.redirect_stdout(io.StringIO()):
