@@ -51,8 +51,8 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
                       "cmd:'PROG {in} {out.mesh}', NAME=cmd:'...' or "
                       "NAME=delmesher:'mesh OPTIONS'; may be repeated");
   app->add_flag("--ablation", a.ablation,
-                "Also our mesher with its default, with each departure from the paper undone "
-                "alone (delmesher+NAME), and as the paper says (delmesher-e4)");
+                "Also run our mesher by default, with each departure from the paper undone alone "
+                "(delmesher+NAME), and with the paper's preset (delmesher-e4)");
   app->add_option("--db", a.database, "SQLite file of the results")->required();
   add_limits(*app, a, "Runs at a time", "Wall seconds per run", "Resident MiB per run");
   app->add_option("--cpu", a.cpu, "Processor seconds per run (default: as --timeout)")
@@ -63,7 +63,7 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   add_tier(*app, a.tier);
   app->add_option("--shard", a.shard, "I/N: only the I-th of N parts of the models");
   app->add_option("--retry", a.retry,
-                  "Run those again that ended so: killed, timeout, out-of-memory, ...")
+                  "Run again the rows with this disposition: killed, timeout, ...")
       ->check(CLI::IsMember({"ok", "unverified", "wrong-result", "rejected", "crash", "timeout",
                              "out-of-memory", "killed"}));
   app->add_option("--delmesher-binary", a.delmesher,
@@ -73,11 +73,11 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   app->add_option("--keep-tetrahedra", a.keep_tetrahedra, "Keep no mesh with more than these");
   app->add_flag("--solver", a.solver,
                 "Solve Poisson's equation on each mesh, inside: iterations, condition, error");
-  app->add_flag("--verify,!--no-verify", a.verify, "Ask the oracles about each mesh (the default)");
+  app->add_flag("--verify,!--no-verify", a.verify, "Verify each mesh (the default)");
   app->add_flag(
       "--exact", a.sidecars,
-      "delmesher runs once more for its sidecar, and is asked for the same bytes; all oracles are "
-      "asked");
+      "Run delmesher once more for its record, which must give the same bytes, and verify with all "
+      "oracles");
   return app;
 }
 
@@ -90,19 +90,18 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
   app->add_option("--base", a.base, "Results to compare with: meshers NAME@base")
       ->check(CLI::ExistingFile);
   app->add_option("--model", a.model, "Model of Table 3 and Figure 13, by name");
-  app->add_option("--families", a.families,
-                  "Lines PATTERN,FAMILY: which models the league puts together")
+  app->add_option("--families", a.families, "Lines PATTERN,FAMILY: groups of models in the league")
       ->check(CLI::ExistingFile);
   app->add_flag(
       "--history", a.history,
-      "The databases are campaigns in the order of time: what changed, and with which; the "
-      "rest of the report is of the last");
+      "The databases are campaigns in order of time: show what changed, and when; the rest of the "
+      "report is about the last");
   app->add_flag("--processor-time", a.processor_time,
-                "All times are processor seconds: for campaigns on a busy machine");
+                "Show processor seconds only, for campaigns on a busy machine");
   app->add_option("--views", a.views,
                   "Models with pictures, if their meshes were kept (run --keep)")
       ->capture_default_str();
-  app->add_option("--show", a.show, "Models to have pictures in any case, by name");
+  app->add_option("--show", a.show, "Models that get pictures in any case, by name");
   return app;
 }
 
@@ -130,8 +129,7 @@ CLI::App* declare_merge(CLI::App& tetproof, MergeArguments& a) {
 
 CLI::App* declare_meshers(CLI::App& tetproof, MeshersArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
-      "meshers",
-      "The meshers of others known by name: licence, promise, version or what is missing");
+      "meshers", "List other meshers known by name: licence, promise, version or what is missing");
   app->add_flag("--at-hand", a.at_hand, "Only the names of those that can be run here");
   return app;
 }
@@ -174,11 +172,11 @@ CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
       "gate", "Compare with an earlier campaign; exit 1 and a line each if something got worse");
   app->add_option("--base", a.base,
-                  "Results, or exports in JSON, to measure up to; several: repetitions of one "
-                  "campaign, of which the least times count")
+                  "Baseline: results, or exports in JSON; several are repetitions of one campaign, "
+                  "whose least times count")
       ->required()
       ->check(CLI::ExistingFile);
-  app->add_option("--new", a.fresh, "Results, or exports in JSON, to be judged; several as above")
+  app->add_option("--new", a.fresh, "Results, or exports in JSON, to judge; several as above")
       ->required()
       ->check(CLI::ExistingFile);
   GateOptions& o = a.options;
@@ -201,11 +199,11 @@ CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
       "of the base's",
       0, 1);
   limit(one, "--mean-factor", o.mean_factor,
-        "The same for mean gamma and mean angles; of the largest what 180 degrees leave", 0, 1);
+        "The same for mean gamma and mean angles (largest ones: 180 degrees minus them)", 0, 1);
   limit(one, "--sliver-share", o.sliver_share,
         "Share of tetrahedra with a dihedral below 5 or 10 degrees larger by this", 0, 1);
   limit(one, "--deviation-ulps", o.deviation_ulps,
-        "Written surface off the input by so many ulp more (and by half as much again)", 0, most);
+        "Written surface off the input by this many ulp more (and half as much again)", 0, most);
   limit(one, "--least-seconds", o.least_seconds, "Smaller differences are noise", 0, most);
   limit(one, "--least-bytes", o.least_bytes, "Smaller differences are noise", 0, 1e18);
   limit(one, "--least-tetrahedra", o.least_tetrahedra, "Smaller differences are noise", 0, 1e18);
@@ -224,7 +222,7 @@ CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
   app->add_flag("--allow-missing", a.allow_missing, "Runs of the base may be missing");
   app->add_flag("--allow-fewer", a.allow_fewer, "Meshes may have fewer tetrahedra");
   app->add_option("--allow-silent", o.may_be_silent,
-                  "Oracles that need not have been asked although the base was");
+                  "Oracles that may be missing although the base has them");
   return app;
 }
 
@@ -250,7 +248,7 @@ CLI::App* declare_classify(CLI::App& tetproof, ClassifyArguments& a) {
 CLI::App* declare_slurm(CLI::App& tetproof, SlurmArguments& a) {
   CLI::App* app = declare_run(
       tetproof, a.run, "slurm",
-      "Run a campaign as a Slurm job array and merge when done; the same command again waits on");
+      "Run a campaign as a Slurm job array and merge when done; repeat the command to wait again");
   app->add_option("--shards", a.shards, "Tasks of the array")
       ->required()
       ->check(CLI::PositiveNumber);
@@ -259,8 +257,8 @@ CLI::App* declare_slurm(CLI::App& tetproof, SlurmArguments& a) {
   app->add_option("--task-minutes", a.task_minutes, "Time limit of a task");
   CLI::Option* plan = app->add_flag(
       "--plan", a.plan,
-      "Submit nothing: tell hours, memory and the cost of a lost task, from the runs in --db");
-  app->add_option("--of", a.of, "The models are a sample of that many: tell what those would cost")
+      "Submit nothing: estimate hours, memory and the cost of a lost task, from the runs in --db");
+  app->add_option("--of", a.of, "Estimate for this many models, of which these are a sample")
       ->check(CLI::PositiveNumber)
       ->needs(plan);
   app->add_option("--sbatch", a.sbatch,
@@ -307,9 +305,9 @@ CLI::App* declare_rotate(CLI::App& tetproof, CopiesArguments& a) {
 CLI::App* declare_vary(CLI::App& tetproof, CopiesArguments& a) {
   return declare_copies(
       tetproof, "vary",
-      "Surfaces as given and exact copies, turned (NAME@t1.off), scaled (NAME@s1.off), numbered "
-      "otherwise (NAME@n1.off), an edge split (NAME@e1.off); reports tell which meshers change "
-      "their mind",
+      "Surfaces as given and exact copies: turned (NAME@t1.off), scaled (NAME@s1.off), renumbered "
+      "(NAME@n1.off), an edge split (NAME@e1.off); reports show for which meshers the "
+      "outcome differs",
       a);
 }
 
@@ -336,16 +334,17 @@ CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
 CLI::App* declare_union(CLI::App& tetproof, UnionArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
       "union",
-      "One surface around bodies that overlap, and around a surface that intersects itself; exact "
-      "but for new points, which are rounded");
+      "One surface around overlapping bodies, or around a surface that intersects itself; exact "
+      "except that new points are rounded");
   app->add_option("input", a.input, "A surface file")->required();
   app->add_option("-o,--output", a.output, "FILE.stl, FILE.ply or FILE.off")->required();
-  app->add_flag("--nonzero", a.nonzero,
-                "Inside is also what triangles that are turned inwards enclose (default: where the "
-                "winding number is positive)");
+  app->add_flag(
+      "--nonzero", a.nonzero,
+      "Also count as inside where the winding number is negative (default: only where it is "
+      "positive)");
   app->add_option("--separate", a.separate,
-                  "Parts that touch at edges and vertices are moved apart, each vertex there by at "
-                  "most this fraction of the diagonal (0: they stay as they are)")
+                  "Move parts that touch at edges or vertices apart, each vertex by at most this "
+                  "fraction of the diagonal (0: leave them)")
       ->capture_default_str()
       ->check(number_in(0, 0.01));
   app->footer(
