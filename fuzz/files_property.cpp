@@ -140,7 +140,7 @@ Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& exte
 
 }  // namespace
 
-// A plain file has to be read, exactly as it stands.
+// A plain file must be read, exactly as it stands.
 Finding plain_is_read(const delmesher::io::ReadResult& read, const TriangleSoup& plain) {
   if (!read.ok()) return "reader plain: refused, " + read.error;
   TriangleSoup ours;

@@ -127,7 +127,7 @@ Finding at_limit(const Surface& surface, const delmesher::Status& status) {
 
 // Where features are so close to each other that rounding left tetrahedra inverted or flat, or its
 // last repairs hold as written alone. Then the file is not what the record says, and is judged by
-// itself: it has to be as good as the run says that it is.
+// itself: it must be as good as the run says that it is.
 Finding judged_as_written(const Surface& surface, const Result& result) {
   if (!below_8_ulp(surface)) return "rounding: inverted, flat or inexact, and there is room";
   const delmesher::Statistics& s = result.statistics;

@@ -140,7 +140,7 @@ std::vector<std::uint8_t> used_points(const delmesher::tetmesh::ConformingMesh& 
 }
 
 // The tetrahedra with their vertices in the order in which the improvement takes and delivers them:
-// what doubles tell of one that is flat but for roundings depends on it.
+// what doubles tell of one that is flat except for roundings depends on it.
 delmesher::tetmesh::ConformingMesh as_measured(const delmesher::tetmesh::ConformingMesh& given,
                                                const Stages& s) {
   const auto point = vertices_in_order(given, s.points);

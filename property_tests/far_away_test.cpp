@@ -122,8 +122,8 @@ TEST(FarAway, PassesTheOraclesWithEveryOption) {
   }
 }
 
-// As many tetrahedra as nearby, but for what the filter does at roundings: before, circumballs had
-// no double in them here, and the run ended.
+// As many tetrahedra as nearby, except for what the filter does at roundings: before, circumballs
+// had no double in them here, and the run ended.
 TEST(FarAway, OfFewRoundingsIsMeshed) {
   for (const auto& [name, surface] : solids()) {
     if (name == "wedge") continue;  // it has no doubles there

@@ -498,7 +498,7 @@ class Formats {
     std::filesystem::create_directories(folder_);
   }
 
-  // A facet has one label, or readers number the facets anew.
+  // A facet has one label, or readers number the facets again.
   void judge(TetMesh mesh) const {
     mesh.boundary_facets.assign(mesh.boundary_labels.begin(), mesh.boundary_labels.end());
     for (const std::string& extension : extensions_) {

@@ -96,7 +96,7 @@ Triangle triangle(const TetMesh& mesh, std::uint32_t a, std::uint32_t b, std::ui
   return corners;
 }
 
-// All faces that have to be kept, by the coordinates of their vertices.
+// All faces that must be kept, by the coordinates of their vertices.
 std::set<Triangle> kept_faces(const TetMesh& mesh) {
   std::map<Triangle, std::set<std::pair<int, int>>> sides;
   std::map<Triangle, int> count;
@@ -301,7 +301,7 @@ TEST(ImproveMesh, MakesNoEdgeThatIsTooLong) {
   EXPECT_GT(longest(delmesher::improve_mesh(cube()).mesh), options.max_edge);
 }
 
-// Near one corner, where the mesh has to be fine; far from there it becomes coarser.
+// Near one corner, where the mesh must be fine; far from there it becomes coarser.
 TEST(ImproveMesh, MakesNoEdgeAboveTheSizeField) {
   const Point corner = cube().vertices[cube().tetrahedra[0][0]];
   Options options;

@@ -1,6 +1,6 @@
 // Lies about a run: promises laxer than asked; sections of the record swapped, emptied, duplicated,
 // cut short, out of date; records and files of other runs; changes of mesh and record together, so
-// that both agree; false local operations. Each has to be caught by the oracle meant for it. At the
+// that both agree; false local operations. Each must be caught by the oracle meant for it. At the
 // end they are printed as a table.
 #include <gtest/gtest.h>
 
@@ -110,7 +110,7 @@ TEST(Truths, AFacetMayGoForItsChamfers) {
   EXPECT_EQ(figures_of(report, "refined-filter").at("dropped for what chamfering made of them"), 1);
 }
 
-// A refined mesh is written as it is recorded, but for rounding, or for what was declared.
+// A refined mesh is written as it is recorded, except for rounding, or for what was declared.
 TEST(Truths, ARefinedMeshDeviatesFromWhereItIsWritten) {
   Told told = honest();
   run_approximate(told);

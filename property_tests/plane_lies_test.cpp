@@ -1,6 +1,6 @@
 // Lies of a record of the plane, as lies_test.cpp tells them in space: relaxed promises; sections
 // emptied, cut short, doubled, swapped; records and files of other runs; lies that change mesh and
-// record together. Each has to be caught by the oracle meant for it. At the end they are printed
+// record together. Each must be caught by the oracle meant for it. At the end they are printed
 // as a table.
 #include <gtest/gtest.h>
 
@@ -126,7 +126,8 @@ TEST(PlaneLies, NamePointsThatTheInputHasAndTheRecordHasNot) {
   }
 }
 
-// The tip of a slender triangle whose neighbours are all far away, but for the inside of a segment.
+// The tip of a slender triangle whose neighbours are all far away, except for the inside of a
+// segment.
 TEST(PlaneLies, AboutARadiusThatReachesToASegment) {
   PlanarGraph graph;
   graph.vertices = {{0, 0}, {8, -1}, {8, 1}, {-0.5, -9}, {-0.5, 9}};

@@ -224,7 +224,7 @@ TEST(Plane, SplittingASegmentByHandKeepsTheArea) {
   EXPECT_NEAR(before, area(expect_verified(graph).mesh), 1e-12);
 }
 
-// Every segment in so many pieces, collinear but for the rounding of their ends.
+// Every segment in so many pieces, collinear except for the rounding of their ends.
 PlanarGraph in_pieces(const PlanarGraph& graph, int count) {
   PlanarGraph result;
   result.vertices = graph.vertices;

@@ -27,8 +27,8 @@ std::array<double, 6> dihedral_angles(const Corners& corners);
 // one. They do not depend on the orientation, and are right to about 1e-9.
 struct TetrahedronShape {
   double gamma = 0;  // 3 times the radius of the inscribed sphere over that of the circumsphere
-  // Gmsh's SICN but for the sign: 3 over the product of the Frobenius norms of S and its inverse,
-  // where S maps a regular tetrahedron to this one.
+  // Gmsh's SICN except for the sign: 3 over the product of the Frobenius norms of S and its
+  // inverse, where S maps a regular tetrahedron to this one.
   double sicn = 0;
 };
 

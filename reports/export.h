@@ -4,7 +4,7 @@
 // Laws: rows come in the order of sort_rows(), whatever the order of storing; a `stable` export
 // depends on models, meshers and results only, so that two campaigns over the same models, however
 // they were interrupted, divided and merged, give the same bytes; JSON read back gives the rows
-// written, but for the parts that were left out.
+// written, except for the parts that were left out.
 #pragma once
 
 #include <filesystem>

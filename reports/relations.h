@@ -1,4 +1,4 @@
-// Copies of a model that bound the same solid to the last bit, but for an exact motion or scale:
+// Copies of a model that bound the same solid to the last bit, except for an exact motion or scale:
 // NAME@t1.off is a copy of NAME.off. A mesher may make another mesh of one, but not another
 // disposition.
 #pragma once

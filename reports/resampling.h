@@ -15,7 +15,7 @@ struct Weighted {
 double mean_of(const std::vector<Weighted>& sample);
 
 // Is the mean of many beyond a limit in the direction of `sign`, and not because of a few of them?
-// 99 of 100 resamplings (bootstrap, the same ones in every call) have to be beyond `neutral`.
+// 99 of 100 resamplings (bootstrap, the same ones in every call) must be beyond `neutral`.
 bool all_beyond(const std::vector<Weighted>& sample, double limit, double neutral, int sign);
 
 // 1.4826 times the median distance from the median, a standard deviation if all is normal.

@@ -47,7 +47,7 @@ struct Extrapolation {
 };
 
 // A collection of so many models, each of which costs what one of the plan's does. The interval is
-// that of 1000 resamplings, each of which draws a sample anew from the plan's models and the
+// that of 1000 resamplings, each of which draws a sample again from the plan's models and the
 // collection from that; the longest shard is that of models dealt out evenly. The same in every
 // call. \throw std::runtime_error if there are no models or more than the collection has.
 Extrapolation extrapolated(const Plan& plan, std::size_t models, unsigned shards);

@@ -28,7 +28,7 @@ int picture_command(const PictureArguments& arguments) {
   }
   const oracles::MeshFile mesh = oracles::read_mesh(arguments.mesh);
   oracles::Polyhedron surface = oracles::read_surface(arguments.input);
-  // The oracles judge such a mesh by its own boundary, but for the distance.
+  // The oracles judge such a mesh by its own boundary, except for the distance.
   const bool is_own = arguments.own_surface && !sentence.starts_with("envelope:");
   if (is_own) surface = oracles::boundary_of(mesh);
   const std::string svg = picture_of(surface, mesh, sentence);

@@ -77,7 +77,7 @@ Surface edited(FamilyMember& m) {
   return s;
 }
 
-// In another position, so that facets are flat but for rounding, in one of three precisions.
+// In another position, so that facets are flat except for rounding, in one of three precisions.
 Surface rotated_member(FamilyMember& m) {
   Random& r = m.random;
   const Surface s = some_surface(m, 12);
@@ -87,8 +87,8 @@ Surface rotated_member(FamilyMember& m) {
   return rotated(s, q, kPrecisions[r.below(3)]);
 }
 
-// Facets that are flat but for noise between an ulp and 2^-16, or but for a vertex that a split put
-// at a rounded point.
+// Facets that are flat except for noise between an ulp and 2^-16, or except for a vertex that a
+// split put at a rounded point.
 Surface noisy(FamilyMember& m) {
   Random& r = m.random;
   Surface s = some_surface(m, 12);

@@ -1,6 +1,6 @@
 // Exact copies of surfaces, for metamorphic tests of any mesher: what they bound is the same solid
-// to the last bit, but for an exact motion or scale (reports/relations.h). Whoever meshes one can
-// mesh the others.
+// to the last bit, except for an exact motion or scale (reports/relations.h). Whoever meshes one
+// can mesh the others.
 #pragma once
 
 #include <optional>

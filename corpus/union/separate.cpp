@@ -288,7 +288,7 @@ bool Separator::is_near() {
   return true;
 }
 
-// Nothing is believed of the way it was made: it has to be its own union.
+// Nothing is believed of the way it was made: it must be its own union.
 void Separator::check() {
   const Soup again = soup_of(surface_of(soup_));
   if (again.welded + again.degenerate > 0) throw InternalError("parts moved apart are not");

@@ -144,7 +144,7 @@ std::uint64_t count_bodies(std::span<const Triangle> triangles) {
   return count;
 }
 
-// Corners of triangles hang together where the triangles share an edge at the vertex. A vertex that
+// Corners of triangles are connected where the triangles share an edge at the vertex. A vertex that
 // has several sets of them, and no edge of more than two triangles, is one where parts touch.
 Touching find_touching(std::span<const Triangle> triangles) {
   Touching result;

@@ -62,7 +62,7 @@ class Edges {
   std::vector<EdgeUse> uses_;
 };
 
-// Sets of triangles that hang together over edges.
+// Sets of triangles that are connected over edges.
 std::uint64_t count_bodies(std::span<const Triangle> triangles);
 
 // Where parts of closed triangles touch.

@@ -6,7 +6,7 @@
 // the surface is open, or neighbours disagree about the outside, there is none, and no union.
 //
 // How: triangles are cut along their intersections with others, those in one plane together; equal
-// points are one, and pieces that cancel are gone. A patch is a set of pieces that hang together
+// points are one, and pieces that cancel are gone. A patch is a set of pieces that are connected
 // over edges of two. One ray of each patch counts the winding number in front of it, and so the one
 // behind it. The patches with the inside on exactly one side are the union. All of this is exact.
 // Then the new points are rounded to doubles, and what comes out goes the same way once more until
@@ -66,7 +66,7 @@ enum class UnionCode : std::uint8_t {
 // What was done, for whoever wants more than words.
 struct UnionCounts {
   std::uint64_t welded = 0, degenerate = 0;           // vertices, triangles of the input
-  std::uint64_t bodies_before = 0, bodies_after = 0;  // that hang together over edges
+  std::uint64_t bodies_before = 0, bodies_after = 0;  // that are connected over edges
   std::uint64_t pairs = 0, coplanar_pairs = 0;        // of triangles that meet
   std::uint64_t cut = 0, new_points = 0;              // triangles, points of the arrangement
   std::uint64_t dropped = 0;                          // pieces that are no part of the result

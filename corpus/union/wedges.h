@@ -17,7 +17,7 @@ using Wedge = std::array<EdgeUse, 2>;
 // on each other; if not, it throws InternalError. Decided exactly.
 std::vector<Wedge> wedges_at(const Soup& soup, std::span<const EdgeUse> uses);
 
-// Corners of triangles hang together at their vertex, over wedges. Corner 3 t + k is that of
+// Corners of triangles are connected at their vertex, over wedges. Corner 3 t + k is that of
 // vertex k of triangle t.
 class Fans {
  public:

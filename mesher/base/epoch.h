@@ -9,7 +9,7 @@
 namespace delmesher::base {
 
 // Begins the next epoch of some marks, which are 0 (never marked) or an earlier epoch. When all
-// numbers have been used, the marks are set to 0 and the count begins anew.
+// numbers have been used, the marks are set to 0 and the count begins again.
 template <class... Marks>
 void next_epoch(std::uint32_t& epoch, Marks&... marks) {
   if (++epoch != 0) return;

@@ -104,7 +104,7 @@ bool FacetRecovery::seed(const std::array<VertexId, 2>& edge) {
     const int s0 = side(other[0]), s1 = side(other[1]);
     if (s0 * s1 >= 0) continue;
     const VertexId above = s0 > 0 ? other[0] : other[1], below = s0 > 0 ? other[1] : other[0];
-    // Seen along the edge, with "above" up, the patch leaves to the left: the tetrahedron has to be
+    // Seen along the edge, with "above" up, the patch leaves to the left: the tetrahedron must be
     // on that side, too.
     if (predicates_.orient3d(a, b, below, above) > 0) {
       add_to_cavity(t);
@@ -228,8 +228,8 @@ std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
 }
 
 // Finds what lies across the faces of the new tetrahedra. False if they do not fill the cavity:
-// every face of a new tetrahedron has to be matched by another new one or to be on the skin, and
-// the whole skin has to be covered.
+// every face of a new tetrahedron must be matched by another new one or be on the skin, and
+// the whole skin must be covered.
 bool FacetRecovery::match_faces(Filling& filling) const {
   // Directed face, counter-clockwise seen from outside its new tetrahedron -> its index.
   FlatMap owner;

@@ -75,12 +75,12 @@ class FacetRecovery {
   PolyhedronFiller filler_;
   CdtCounters counters_;
 
-  Triangle frame_{};  // explicit triangle of the facet at hand
+  Triangle frame_{};  // explicit triangle of the facet in question
   std::uint32_t facet_epoch_ = 0;
   std::vector<std::uint32_t> side_mark_;  // per point: facet for which side_ was computed
   std::vector<std::int8_t> side_;
 
-  std::vector<std::uint8_t> done_;  // per triangle of the facet at hand
+  std::vector<std::uint8_t> done_;  // per triangle of the facet in question
   std::vector<Triangle> patch_;
   std::vector<std::array<VertexId, 2>> patch_border_;  // directed, patch on the left
   std::vector<TetId> cavity_, ring_;

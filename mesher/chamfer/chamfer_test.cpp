@@ -150,7 +150,7 @@ TEST_P(ChamferSamples, RemovedPartsStayWithinTheRadius) {
   }
 }
 
-// A cut point is as far from its vertex along the edge as the chamfer distance says, but for the
+// A cut point is as far from its vertex along the edge as the chamfer distance says, except for the
 // bits that are saved on its fraction: 2^-20 of it.
 TEST_P(ChamferSamples, EdgesAreCutAtTheChamferDistance) {
   std::size_t cut = 0;

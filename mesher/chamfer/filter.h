@@ -87,7 +87,7 @@ class FilteredSurface {
   const FilterOptions filter_;
   const std::size_t first_point_;
   // Per vertex. `changed_`: did the last drop change the points made for it? At first all are 1.
-  // `active_`: did it change those of a neighbour, too, so that the vertex has to be chamfered
+  // `active_`: did it change those of a neighbour, too, so that the vertex must be chamfered
   // again? Empty as long as nothing was dropped.
   std::vector<std::uint8_t> changed_, active_;
   std::optional<KeptSurface> kept_;  // by options_.facet_kept; empty until needed

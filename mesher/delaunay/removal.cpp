@@ -136,7 +136,7 @@ void Tetrahedrization::fill_hole(Tetrahedrization& patch) {
 }
 
 void Tetrahedrization::change_to(std::span<const VertexId> vertices, Control& control) {
-  // Building anew takes as long as removing about this part of the vertices.
+  // Building again takes as long as removing about this part of the vertices.
   constexpr std::size_t kWorthwhile = 8;
   control.poll_now(vertices.size(), -1);
   std::vector<VertexId> missing, surplus;

@@ -133,7 +133,7 @@ TEST(Tetrahedrization, ChangedToOtherVerticesIsThatOfThese) {
       const auto size = static_cast<VertexId>(f.points.size());
       std::vector<VertexId> before, after;
       // Neighbours in the order of a grid, so that holes have several vertices; the last round
-      // changes so much that the tetrahedrization is built anew.
+      // changes so much that the tetrahedrization is built again.
       const VertexId run = round == 11 ? size / 3 : 1 + round % 4;
       const VertexId goes = 4 + static_cast<VertexId>(random() % (size - run - 4)),
                      comes = 4 + static_cast<VertexId>(random() % (size - run - 4));

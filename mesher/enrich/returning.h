@@ -8,7 +8,7 @@ namespace delmesher::enrich {
 
 // `mesh` is one of the surface `stand_in`, on points of the store `refined`. `points` holds the
 // same points by the same numbers, but with the vertices of the surface `as_given`, whose triangles
-// are the same; points that are placed anew are appended, and all on the surface get supports.
+// are the same; points that are placed again are appended, and all on the surface get supports.
 //
 // Inside a facet of the stand-in, a point that is nearer than a share of its spacing to an edge of
 // the surface as given is put on it; the others are put inside a triangle as given, or left out if

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kRaised = 0x1p-6;
 
-// A unit cube but for the vertex (1, 1, 1), which is higher by kRaised: as given, the top is bent
-// at the edge from (0, 0, 1) to it. On the stand-in the vertex is where the planes of the cube
+// A unit cube except for the vertex (1, 1, 1), which is higher by kRaised: as given, the top is
+// bent at the edge from (0, 0, 1) to it. On the stand-in the vertex is where the planes of the cube
 // meet, and the top is one facet.
 struct Case {
   Case() {

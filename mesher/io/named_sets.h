@@ -73,7 +73,7 @@ std::vector<GivenName> given_names(const NamedMesh& named);
 LabelNames distinct_names(LabelNames names);
 
 // Names for formats that take letters, digits and '_' alone: other characters become '_', the first
-// is a letter, and of names that are equal but for case all but one end in a number.
+// is a letter, and of names that are equal except for case all but one end in a number.
 class Identifiers {
  public:
   std::string make(const std::string& name);

@@ -182,7 +182,7 @@ std::array<std::uint32_t, N> cell(NumberedLines& lines, std::uint64_t first,
   return corners;
 }
 
-// Attributes are real numbers for TetGen; as regions they have to be whole.
+// Attributes are real numbers for TetGen; as regions they must be whole.
 std::int32_t region(NumberedLines& lines) {
   const std::string_view token = lines.need("the attribute");
   double value = 0;

@@ -65,11 +65,11 @@ struct ReadingEnd {
   std::string error;
 };
 
-// To be called in a handler: the meaning of the exception at hand for the caller who asked for
+// To be called in a handler: the meaning of the current exception for the caller who asked for
 // `path`. Rethrows an exception that is not a reader's.
 ReadingEnd end_of_reading(const std::string& path);
 
-// The result that `body` fills. Where it throws, the result is empty but for code and error.
+// The result that `body` fills. Where it throws, the result is empty except for code and error.
 template <class Result, class Body>
 Result caught(const std::string& path, const Body& body) {
   Result result;

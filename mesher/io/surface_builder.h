@@ -27,7 +27,7 @@ class SurfaceBuilder {
   // Room for so many elements as a file of `bytes` more bytes can hold at most.
   void expect(std::uint64_t vertices, std::uint64_t polygons, std::uint64_t bytes);
 
-  // Coordinates have to be finite.
+  // Coordinates must be finite.
   void add_vertex(double x, double y, double z, Position position);
   std::uint64_t vertex_count() const { return surface_.vertices.size(); }
   const std::vector<std::array<double, 3>>& vertices() const { return surface_.vertices; }

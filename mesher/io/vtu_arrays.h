@@ -33,7 +33,7 @@ class VtuArrays {
   template <class Take>
   bool each_number(const std::string& key, const Take& take) const;
 
-  // The numbers of an array, which have to be integers; empty if there is none.
+  // The numbers of an array, which must be integers; empty if there is none.
   template <class T>
   std::vector<T> integers(const std::string& key) const;
   template <class T>

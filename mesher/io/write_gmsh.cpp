@@ -101,7 +101,7 @@ class GmshWriter {
   std::size_t facets_ = 0;
 };
 
-// A tag has to be positive: positive labels and regions are their own tag, the others (0, the
+// A tag must be positive: positive labels and regions are their own tag, the others (0, the
 // default, among them) get the tags after the largest. The names tell the numbers in every case.
 std::map<std::int32_t, std::int64_t> GmshWriter::tags_of(const std::set<std::int32_t>& numbers) {
   std::map<std::int32_t, std::int64_t> tags;

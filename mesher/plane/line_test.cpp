@@ -21,7 +21,7 @@ mpq_class exact_square(const Line& l, const Point& p) {
   return dx * dx + dy * dy;
 }
 
-// Is d the distance but for a relative error of 2^-25?
+// Is d the distance except for a relative error of 2^-25?
 testing::AssertionResult is_distance(const Line& l, const Point& p, double d) {
   const mpq_class square = exact_square(l, p), low = mpq_class(d) * (1 - 0x1p-25),
                   high = mpq_class(d) * (1 + 0x1p-25);

@@ -45,7 +45,7 @@ struct RefinedMesh {
   std::vector<PieceId> crowded_pieces;
   std::vector<VertexId> crowded_vertices;
   bool crowded = false;  // if not, every triangle in the region keeps the bound
-  // Only for a bound beyond the proven one: refine() then begins anew without that.
+  // Only for a bound beyond the proven one: refine() then begins again without that.
   bool crowded_beyond = false;
 };
 

@@ -135,7 +135,7 @@ class Triangulation {
   void validate(bool delaunay) const;
 
   void reserve(std::size_t vertices);
-  // Numbers the triangles anew, in the order of their smallest vertices.
+  // Numbers the triangles again, in the order of their smallest vertices.
   void renumber();
 
  private:

@@ -147,7 +147,7 @@ TEST(Triangulation, SegmentsThroughEverything) {
     if (grid) {
       EXPECT_GT(long_chains, 3);
     }
-    // Points inserted now leave the segments alone, but for those that they lie on.
+    // Points inserted now leave the segments alone, except for those that they lie on.
     for (const auto& [x, y] : random_points(100, false, 8)) {
       m.insert(x, y);
       ASSERT_NO_THROW(m.mesh.validate(true));

@@ -63,7 +63,7 @@ TEST(FilterBounds, Orient3d) {
 // the bound 384 u x y z |d|^2.
 TEST(FilterBounds, Insphere) {
   const double x = 28000, y = 29000;
-  const double threshold = 0x1p53 / 384 / (x * y);  // for z, but for 4e-5 of it
+  const double threshold = 0x1p53 / 384 / (x * y);  // for z, except for 4e-5 of it
   for (const double factor : {0.999, 1.001}) {
     const double z = std::floor(threshold * factor);
     const std::array<Row, 4> rows = {Row{1, 0, 0}, Row{0, 1, 0}, Row{0, 0, 1}, Row{x, y, z}};

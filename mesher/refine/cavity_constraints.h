@@ -1,7 +1,7 @@
 // The subsegments and subfacets in and on the cavity of a new point. With the Gabriel property the
 // point can encroach upon no others, because an empty diametral ball of an edge or face is covered
 // by the circumballs of the tetrahedra around it. Without that property a ball may not be covered,
-// but there a constraint only has to be an edge or a face, and the point can destroy no others.
+// but there a constraint must only be an edge or a face, and the point can destroy no others.
 //
 // Law: after begin(), each element of the tetrahedra collected is listed once.
 #pragma once

@@ -352,8 +352,8 @@ TEST(Refine, SliverTreatmentRaisesTheSmallestDistanceOfOppositeEdges) {
   EXPECT_GT(worst_ratio(false), 7.2);
 }
 
-// Section 5.6: each volume point is the circumcentre of the tetrahedron that it splits, but for the
-// grid, which is finer than a thousandth of the shortest edge. By default some are off-centres.
+// Section 5.6: each volume point is the circumcentre of the tetrahedron that it splits, except for
+// the grid, which is finer than a thousandth of the shortest edge. By default some are off-centres.
 TEST(Refine, CircumcentresIfAskedFor) {
   const auto farthest = [](bool circumcentres) {
     RefineOptions options;

@@ -70,7 +70,7 @@ TEST(Sides, FoundFromOneAndPassedOn) {
   EXPECT_EQ(complaint_of(*box.sides), "nothing");
 }
 
-// Near the removed part of the surface each tetrahedron has to be tested by itself, and no side is
+// Near the removed part of the surface each tetrahedron must be tested by itself, and no side is
 // passed on to it.
 TEST(Sides, NearTheRemovedPartEachIsTested) {
   Sided everywhere(std::vector<Box>{kEverything});

@@ -44,7 +44,7 @@ class Subfacets {
   }
   // False only if no face of t is a subfacet.
   bool any_on(TetId t) const { return marks_.any_on(t); }
-  // Is v strictly inside the diametral ball of s? It has to be no corner of it.
+  // Is v strictly inside the diametral ball of s? It must not be a corner of it.
   bool encroached_by(std::uint32_t s, VertexId v) const {
     const auto& c = planar_[s].v;
     return dt_.predicates().in_diametral_ball(c[0], c[1], c[2], v) > 0;

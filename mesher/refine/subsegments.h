@@ -55,7 +55,7 @@ class Subsegments {
     }
   }
 
-  // Is v strictly inside the diametral ball of s? It has to be no end of it.
+  // Is v strictly inside the diametral ball of s? It must not be an end of it.
   bool encroached_by(std::uint32_t s, VertexId v) const {
     return dt_.predicates().dot_sign(list_[s].a, v, list_[s].b) < 0;
   }

@@ -1,5 +1,5 @@
 // Lengths, circumcentre and volume of a tetrahedron, in doubles: they tell whether it is bad and
-// where to split it, and decide nothing exact. Where a circumcentre has to be the circumcentre, it
+// where to split it, and decide nothing exact. Where a circumcentre must be the circumcentre, it
 // is computed in pairs of doubles and its error is known.
 #pragma once
 

@@ -22,8 +22,8 @@ namespace delmesher::surface {
 // noise: twice, unless more makes further planar groups one with others, and then hardly any. That
 // is if it makes at least three of a hundred groups one with others, and twice as much hardly more:
 // not one in ten, not a fiftieth as many, or not one in four and not a third as many. Faces that
-// are flat but for noise stay the same, those of a curved surface grow together more and more. At
-// most 2^-14 of the diagonal, too. Bends that the coordinates cannot resolve (up to 1.25 of the
+// are flat except for noise stay the same, those of a curved surface grow together more and more.
+// At most 2^-14 of the diagonal, too. Bends that the coordinates cannot resolve (up to 1.25 of the
 // rounding), or below 2^-22 of the diagonal, may hide such noise, so it is looked for without them
 // as well; then at least 16 edges have to tell of it, not 8. In the units of the surface, which is
 // valid.

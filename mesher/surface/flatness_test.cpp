@@ -103,7 +103,7 @@ TEST(Flatness, FewDigitsDoNotFlattenWhatIsCurved) {
   for (const double unit : {1e-3, 5e-4}) {
     const Surface curved = in_decimals(torus(300, 150, 1), unit);
     EXPECT_LE(flatness(curved), 0x1p-20 * diagonal(curved));
-    // Its quadrangles are flat but for half a unit, and no more is.
+    // Its quadrangles are flat except for half a unit, and no more is.
     EXPECT_LE(flatness(in_decimals(torus(300, 150), unit)), 4 * rounding(unit));
   }
 }

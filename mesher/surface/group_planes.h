@@ -17,7 +17,7 @@ bool exactly_on(const PlaneEquation& plane, const Vec3& p);
 Fit rough(const PlaneEquation& plane);
 
 // Call fit(), share(), spread_moves() and relieve_vertices() in this order. If the last one says
-// that groups have lost triangles, all has to be done again; the same after let_go() and after
+// that groups have lost triangles, all must be done again; the same after let_go() and after
 // PlanarGrowth::detach().
 class GroupPlanes {
  public:

@@ -13,7 +13,7 @@ struct Enclosed {
   std::uint64_t parts = 0;           // of space that triangles keep from the outside
   std::vector<std::uint32_t> walls;  // triangles that have such parts on both sides
   bool closes = true;                // every edge belongs to an even number of triangles
-  std::uint64_t sheets = 0;  // of the walls, what hangs together without going round a corner
+  std::uint64_t sheets = 0;          // of the walls, what is connected without going round a corner
 };
 
 // Around each edge the triangles are put in the order of their angles, in doubles: for a hint, no

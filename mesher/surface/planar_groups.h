@@ -1,4 +1,4 @@
-// Facets that are planar but for rounding, and a surface on which they are planar.
+// Facets that are planar except for rounding, and a surface on which they are planar.
 //
 // A flat face that is not parallel to the axes has corners that were rounded, so its triangles lie
 // in as many planes. A *planar group* is an edge-connected set of triangles of one label whose
@@ -8,7 +8,7 @@
 // point (PointKind::on_planes); a vertex on fewer is moved along an axis or two. A vertex on more
 // stays, and planes are moved to contain it, or triangles at it leave their groups. The stand-in is
 // certified: exactly planar groups of positive triangles, no two triangles of the surface meet
-// anew, whatever facets it has in the end keep their corners, their outlines and the bound
+// again, whatever facets it has in the end keep their corners, their outlines and the bound
 // (facet_laws.h), and every vertex that moves is in a facet of several triangles.
 #pragma once
 

@@ -216,8 +216,8 @@ TEST(PlanarGroups, FinelyDividedFacesAreWhole) {
   }
 }
 
-// A lid that is flat but for noise, on walls that are exactly: vertices of the rim are the meeting
-// points of noisy planes and exact ones, whose equations come from areas.
+// A lid that is flat except for noise, on walls that are exactly: vertices of the rim are the
+// meeting points of noisy planes and exact ones, whose equations come from areas.
 TEST(PlanarGroups, AreTheSameInAllUnits) {
   Surface s = box({0, 0, 0}, {1, 1, 1}, 4);
   for (std::size_t v = 0; v < s.vertices.size(); ++v) {
@@ -347,9 +347,9 @@ TEST(PlanarGroups, LabelsSeparate) {
   EXPECT_EQ(grouped(s).facets(), 7U);
 }
 
-// A box whose lid is flat exactly up to x = 0.75, with a label of its own, and flat but for noise
-// beyond. The two share a plane: that of the flat part does not move, yet vertices of the other
-// have to go there.
+// A box whose lid is flat exactly up to x = 0.75, with a label of its own, and flat except for
+// noise beyond. The two share a plane: that of the flat part does not move, yet vertices of the
+// other have to go there.
 Surface lid_in_two_parts() {
   Surface s = box({0, 0, 0}, {1, 1, 1}, 4);
   for (const auto& corners : s.triangles) {

@@ -257,7 +257,7 @@ TEST(Solid, AgreesWithTheDefinition) {
   for (const int n : seen) EXPECT_GT(n, 50);
 }
 
-// Tetrahedra without any double strictly inside: their centroid has to be located exactly.
+// Tetrahedra without any double strictly inside: their centroid must be located exactly.
 TEST(Solid, ThinTetrahedra) {
   // The rays from the centroids hit the middle of faces, where four triangles meet.
   Model model(box({1, 1, 1}, {2, 2, 2}, 2));

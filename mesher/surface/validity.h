@@ -10,7 +10,7 @@ namespace delmesher::surface {
 
 struct ValidityResult {
   SurfaceReport report;
-  std::vector<std::uint8_t> reverse_triangle;  // per triangle: does it have to be reversed?
+  std::vector<std::uint8_t> reverse_triangle;  // per triangle: must it be reversed?
 };
 
 constexpr std::uint64_t kMostPlaces = 1'000'000;  // of each kind in SurfaceReport::places

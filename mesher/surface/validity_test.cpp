@@ -107,7 +107,7 @@ TEST(Validity, ParityOrientsNestedComponents) {
   EXPECT_TRUE(check(reversed(good)).report.flipped);
 }
 
-// The sign of a volume that cancels almost completely has to be decided exactly.
+// The sign of a volume that cancels almost completely must be decided exactly.
 TEST(Validity, VolumeFarBelowRounding) {
   const Surface thin =
       tetrahedron({0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.3, 0.3, std::nextafter(1.0, 2.0)});

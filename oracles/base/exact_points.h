@@ -1,6 +1,6 @@
 // Points with exact coordinates: integers at one common power-of-two scale, over odd denominators
 // for points on planes. Of each coordinate two doubles are kept, for the filter: one within an ulp,
-// and the rest. The integers are made anew from the definition whenever they are needed, because
+// and the rest. The integers are made again from the definition whenever they are needed, because
 // intervals nearly always suffice, and all of them take several times the memory of a mesh. Shares
 // nothing with the mesher's arithmetic.
 #pragma once
@@ -192,7 +192,7 @@ Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& te
 // The same far less narrowly, in a fraction of the time: by rounded values and one bound on their
 // error.
 Interval quick_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
-// The same for many tetrahedra, without allocating anew for each.
+// The same for many tetrahedra, without allocating again for each.
 class Volume6 {
  public:
   const ExactNumber& operator()(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);

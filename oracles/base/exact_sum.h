@@ -1,6 +1,6 @@
 // Sums of many exact numbers. A common denominator would outgrow all memory, so terms with
 // denominators are kept as residues modulo two primes of 61 bits and as a value in fixed point. Two
-// sums that are called equal are so, but for a chance of 2^-120.
+// sums that are called equal are so, except for a chance of 2^-120.
 #pragma once
 
 #include <array>

@@ -54,7 +54,7 @@ class TextReader {
   bool at_end();
   // Nothing but blanks may follow in the text.
   void expect_nothing();
-  // The next word has to be this one.
+  // The next word must be this one.
   void expect(const std::string& wanted);
   // This last word has to follow, and nothing else.
   void expect_end(const std::string& wanted);

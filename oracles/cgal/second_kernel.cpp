@@ -393,7 +393,7 @@ class SecondKernel {
 
     explicit Direction(int attempt)
         : x(0.2718281828 + 0.37 * attempt), y(0.5772156649 - 0.11 * attempt) {}
-    // Rounding has to be set upwards.
+    // Rounding must be set upwards.
     Shadow of(const Rough::Point_3& p) const {
       return {p.x() - Interval(x) * p.z(), p.y() - Interval(y) * p.z()};
     }
@@ -576,7 +576,7 @@ class SecondKernel {
   }
 
   // Sums of coordinates: exact numbers, or residues of fractions. Two sums of these that are called
-  // equal are so, but for a chance of 2^-120.
+  // equal are so, except for a chance of 2^-120.
   using Term = std::conditional_t<std::is_same_v<K, Whole>, Number, Residue>;
   using Terms = std::array<Term, 3>;
 

@@ -19,7 +19,7 @@ namespace tetproof::oracles {
 //   Gauss?
 // Checks all elements of small meshes, an evenly spread sample of large ones. Sums are complete
 // or left out, and the figures say how many of each were asked. Triangles are oriented as in the
-// surface. Coordinates of the input are those given, but for vertices that were moved, which the
+// surface. Coordinates of the input are those given, except for vertices that were moved, which the
 // record defines; with `as_given` for those, too.
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const delmesher::ExactRecord& record, const ExactPoints& points,

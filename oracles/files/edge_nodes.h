@@ -25,7 +25,7 @@ struct NodesOnEdges {
 // is a corner or on two edges, or if an edge has two.
 void take_out_edge_nodes(MeshFile& mesh, const NodesOnEdges& nodes, const std::string& path);
 
-// Straight edges have their node in the middle, but for what is allowed (a length).
+// Straight edges have their node in the middle, except for what is allowed (a length).
 OracleReport check_edge_nodes(const MeshFile& mesh, double allowed);
 
 }  // namespace tetproof::oracles

@@ -498,7 +498,7 @@ class NodesOfFaces {
 
 // Faces of ten-node tetrahedra have three nodes or six, whose order depends on what TetGen did.
 // Their corners must be followed by `markers` numbers and, by its -nn, two more. Takes the
-// nodes away, which have to be those of the tetrahedra.
+// nodes away, which must be those of the tetrahedra.
 std::array<Index, 3> take_nodes_of_face(TextReader& reader, const NodesOfFaces& of_faces,
                                         const Face& face, std::int64_t first, std::size_t markers,
                                         std::vector<std::int64_t>& numbers) {

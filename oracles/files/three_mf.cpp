@@ -190,7 +190,7 @@ class ModelReader {
     }
     return model->second;
   }
-  // A model says what has to be understood of it.
+  // A model says what must be understood of it.
   void check_extensions(const XmlElement& model) const {
     std::istringstream required(model.value("requiredextensions"));
     for (std::string prefix; required >> prefix;) {

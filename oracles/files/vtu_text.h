@@ -23,10 +23,10 @@ class VtuText {
   VtuText(const VtuText&) = delete;
 
   // The values of the array of that name in a section ("Points", "Cells", "CellData"); of the only
-  // one there if the name is empty. Three for each point, one for each cell but for "connectivity".
-  // Empty if there is none.
+  // one there if the name is empty. Three for each point, one for each cell except for
+  // "connectivity". Empty if there is none.
   std::vector<double> array(const std::string& section, const std::string& name) const;
-  // The same, but there has to be one unless it would be empty.
+  // The same, but there must be one unless it would be empty.
   std::vector<double> required_array(const std::string& section, const std::string& name) const;
   // Field arrays of two integers, a number and a dimension, by their names.
   SetNames names() const;

@@ -201,8 +201,8 @@ class Improvement {
   bool counts(const ExactRecord::Tet& tet) const { return all_ || tet.inside; }
   bool reaches(const WorstAngles& angles, const WorstAngles& least) const {
     constexpr double kSlack = 1 - 1e-6;
-    // Degrees: which of two tetrahedra that are flat but for roundings is flatter, doubles do not
-    // tell.
+    // Degrees: which of two tetrahedra that are flat except for roundings is flatter, doubles do
+    // not tell.
     constexpr double kRoundings = 1e-12;
     return angles.face >= std::min(least.face, goal_.face) * kSlack &&
            angles.dihedral >= std::min(least.dihedral, goal_.dihedral) * kSlack - kRoundings;
@@ -237,7 +237,7 @@ class Improvement {
     }
   }
 
-  // A bad tetrahedron has to be near one that was as bad before.
+  // A bad tetrahedron must be near one that was as bad before.
   void explain() {
     int edges = 0;
     for (;; ++edges) {

@@ -12,7 +12,7 @@ struct HullOptions {
 };
 
 // Hull oracle: the boundary faces close up to one sphere that is convex at every edge. The
-// tetrahedra, which have to be positively oriented, add up to exactly the volume of the convex hull
+// tetrahedra, which must be positively oriented, add up to exactly the volume of the convex hull
 // of the boundary, which CGAL computes (a build without CGAL leaves this out, with a note). So they
 // fill the hull once: at every point of it as many tetrahedra lie as the boundary winds around it,
 // which is the same number everywhere.

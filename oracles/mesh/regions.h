@@ -21,7 +21,7 @@ class Regions {
   // Sets complex.inside, which must hold the parity. Both arguments must outlive this.
   Regions(TetComplex& complex, const std::vector<std::int64_t>& regions);
 
-  // `called`, if not empty, says of each tetrahedron whether it is inside; that has to be true.
+  // `called`, if not empty, says of each tetrahedron whether it is inside; that must be true.
   OracleReport check_strays(double allowed, const std::vector<std::uint8_t>& called) const;
 
  private:

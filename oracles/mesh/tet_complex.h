@@ -14,7 +14,7 @@ struct TetComplex {
   const ExactPoints* points = nullptr;
   std::vector<Tet> tetrahedra;       // indices into points
   std::vector<std::uint8_t> inside;  // per tetrahedron: belongs to the solid
-  // The points [first, last) have to be used by some tetrahedron. Reports number elements from
+  // The points [first, last) must be used by some tetrahedron. Reports number elements from
   // `first` on, as the file does.
   Index first_vertex = 0, last_vertex = 0;
 

@@ -338,7 +338,7 @@ class ChamferChecker {
 
   // Is there a channel between the parts that chamfering leaves of two pieces? It is not known
   // which of their ends were chamfered when one was dropped, so all choices are tried; but where
-  // the pieces meet they have to be cut.
+  // the pieces meet they must be cut.
   Reason reason_between(Index p, Index q) {
     const std::array<Index, 4> ends = {pieces()[p].a, pieces()[p].b, pieces()[q].a, pieces()[q].b};
     int exponent = 0;

@@ -53,7 +53,7 @@ double PlanePoints::distance(Index a, Index b) const {
   return std::hypot(points_[a].dx - points_[b].dx, points_[a].dy - points_[b].dy);
 }
 
-// Exact but for the root: an end that is far away would blur doubles.
+// Exact except for the root: an end that is far away would blur doubles.
 double PlanePoints::distance_to_segment(Index v, Index a, Index b) const {
   const Point &p = points_[v], &q = points_[a], &r = points_[b];
   const mpq_class x = r.x - q.x, y = r.y - q.y, u = p.x - q.x, w = p.y - q.y;

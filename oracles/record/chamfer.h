@@ -28,7 +28,7 @@ OracleReport check_chamfer_extent(const RefinedMesh& mesh);
 OracleReport check_chamfer_need(const RefinedMesh& mesh);
 
 // A kept facet has lost only what was cut off at its chamfered corners and acute edges. The
-// boundary of the rest follows the facet's own, side by side, but for detours around chamfered
+// boundary of the rest follows the facet's own, side by side, except for detours around chamfered
 // corners, over points made for that corner, and strips beside acute edges. The area inside that
 // boundary is that of the faces.
 OracleReport check_chamfer_cuts(const RefinedMesh& mesh);

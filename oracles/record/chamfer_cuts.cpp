@@ -137,9 +137,9 @@ class ChamferNeed {
 
 using AreaSum = std::array<ExactSum, 3>;
 
-// Follows the boundary of the rest of every kept facet. It has to be the facet's own boundary, side
-// by side, but for a detour around each chamfered corner, over points made for that corner, and a
-// strip beside each acute edge, from the points made for one end to those made for the other.
+// Follows the boundary of the rest of every kept facet. It must be the facet's own boundary, side
+// by side, except for a detour around each chamfered corner, over points made for that corner, and
+// a strip beside each acute edge, from the points made for one end to those made for the other.
 class ChamferCuts {
  public:
   explicit ChamferCuts(const RefinedMesh& mesh)

@@ -334,8 +334,8 @@ class FilterCheck {
   // it. The first step takes the closest pairs first, so that it drops the same with both if
   // nothing of the surface is as far apart as half the tolerance, and closer than all of it; and
   // the second step, if it drops nothing, does not with half of it, either. The surfaces are the
-  // same then, and so is what is predicted. Where the guard has chamfered anew, the second step may
-  // have dropped something before.
+  // same then, and so is what is predicted. Where the guard has chamfered again, the second step
+  // may have dropped something before.
   void check_budget(double tolerance) {
     constexpr double kLeast = 1e-5;  // of the diagonal: the first that is tried instead of 0
     const double given = promise_.tau * diagonal_, least = kLeast * diagonal_;

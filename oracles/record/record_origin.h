@@ -21,7 +21,7 @@ struct BesideOrigin {
 bool names_origin(const delmesher::ExactRecord& record);
 
 // Moves everything there. Fails unless that is exact for every number: else the record cannot be of
-// this input and file. Fails as well if that is not a place for an origin: the input has to be far
+// this input and file. Fails as well if that is not a place for an origin: the input must be far
 // from 0 for its size, and the origin beside it.
 OracleReport move_to_origin(BesideOrigin& task);
 

@@ -126,7 +126,7 @@ bool parse_number(const std::string& text, double& value) {
 }
 
 // A choice of --as-paper. Some choices change only the way to the same promises; of these only the
-// names have to be known.
+// names must be known.
 struct Choice {
   const char* name;
   bool Promise::*target;  // null: promises nothing

@@ -23,7 +23,7 @@ struct Promise {
   double delta = 14.47;         // degrees
   double tau = 1e-4;            // fraction of the diagonal of the bounding box
   double planar = kPlanarAuto;  // the same
-  // What kPlanarAuto may be, of the input at hand: input_digits.h says. The verification sets it.
+  // What kPlanarAuto may be, for this input: input_digits.h says. The verification sets it.
   double automatic_planar = 0x1p-18;
   double acute = 60;   // degrees
   double corner = 20;  // degrees, as given

@@ -77,7 +77,7 @@ TEST(PlaneSigns, OfASquareAndBeside) {
 }
 
 // Where doubles tell, rationals are not asked. Here these are all zero and would answer 0, so the
-// answer comes from the doubles, and it has to be right.
+// answer comes from the doubles, and it must be right.
 TEST(PlaneSigns, DoublesTellWhatIsObvious) {
   std::mt19937_64 random(11);
   for (int round = 0; round < 2000; ++round) {

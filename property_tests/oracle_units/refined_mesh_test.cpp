@@ -121,7 +121,7 @@ TEST(ChamferFeatures, AVertexNearTheMiddleOfAnEdgeNarrowsItsStrip) {
 }
 
 // One edge after another of 16 is encroached by a corner of its own tetrahedron. With that many
-// vertices only a few edges can be tried against all of them, yet each has to be found.
+// vertices only a few edges can be tried against all of them, yet each must be found.
 TEST(Encroachment, ByANeighbourIsFoundWhateverIsSampled) {
   constexpr std::size_t kVertices = 1U << 16U, kEdges = 16;
   std::vector<Position> positions;

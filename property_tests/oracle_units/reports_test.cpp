@@ -61,7 +61,7 @@ TEST(Reports, NameVerdicts) {
   EXPECT_STREQ(verdict_name(Verdict::broken), "broken");
 }
 
-// For all lengths of texts, wherever a line has to be broken.
+// For all lengths of texts, wherever a line must be broken.
 TEST(Reports, NoLineOfTextIsLongerThan120Characters) {
   for (std::size_t length = 1; length <= 100; ++length) {
     VerifyReport report;

@@ -1,4 +1,4 @@
-// Facets that are planar but for rounding, from surface to verdict: rotated and jittered solids
+// Facets that are planar except for rounding, from surface to verdict: rotated and jittered solids
 // keep every promise with as few facets as before, and with --planar 0 the surface as given.
 #include <gtest/gtest.h>
 
@@ -164,7 +164,7 @@ struct Part {
   std::uint64_t most;  // tetrahedra
 };
 
-// By local operations, not tetrahedrized anew.
+// By local operations, not tetrahedrized again.
 void expect_kept(const Part& part) {
   const Told told = run_of(part.surface, 0);
   EXPECT_FALSE(told.statistics.planar_anew);
@@ -178,7 +178,7 @@ void expect_kept(const Part& part) {
 
 // There are edges that cross a facet's edge at which tetrahedra are flatter than the surface bends
 // there, or that vertices of the stand-in were moved by more than those are thick. Tetrahedrized
-// anew, they take 175, 251 and 1 468 tetrahedra.
+// again, they take 175, 251 and 1 468 tetrahedra.
 TEST(PlanarZero, EdgesComeBackThroughFlatTetrahedra) {
   for (const Part& part : {Part{rotated(flat_prism(12, 0.5, 0.3), as_it_is), 120},
                            Part{rotated(flat_prism(16, 2, 1), as_it_is), 200},
@@ -188,7 +188,7 @@ TEST(PlanarZero, EdgesComeBackThroughFlatTetrahedra) {
 }
 
 // The cavity of a crossing reaches other faces of the facet, or there is no room for one before
-// vertices of the facet have moved, or other edges have come back. Tetrahedrized anew, these take
+// vertices of the facet have moved, or other edges have come back. Tetrahedrized again, these take
 // 597, 533, 702 and 3 461 tetrahedra, and the last 9 925 with every bend refined.
 TEST(PlanarZero, EdgesComeBackOverOtherFacesOfTheirFacet) {
   for (const Part& part : {Part{rotated(flat_prism(12, 0.1, 0.05), as_it_is), 500},
@@ -221,7 +221,7 @@ TEST(PlanarZero, PointsOnEdgesThatCameBackGoIntoTheVolume) {
 }
 
 // Between edges that come back, tetrahedra may be positive as doubles, but not exactly.
-// Tetrahedrized anew, these take 2 682 and 3 712 tetrahedra.
+// Tetrahedrized again, these take 2 682 and 3 712 tetrahedra.
 TEST(PlanarZero, FlatTetrahedraFitTheSurfaceAsGiven) {
   for (const Part& part : {Part{rotated(flat_prism(8, 0.02, 1), as_it_is), 2600},
                            Part{rotated(flat_prism(24, 0.02, 1), as_it_is), 3200}}) {

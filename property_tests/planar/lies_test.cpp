@@ -99,7 +99,7 @@ ExactPoint& point_that_came_with_an_edge(ExactRecord& r) {
   return r.points.back();
 }
 
-// A bar whose faces are planar but for 2^-22, told as a bar that was made planar: an exact one,
+// A bar whose faces are planar except for 2^-22, told as a bar that was made planar: an exact one,
 // whose record and mesh are put onto the surface as given.
 Told bar() {
   Surface exact;

@@ -1,4 +1,4 @@
-// Surfaces that are planar but for rounding, and runs on them with all that verification wants.
+// Surfaces that are planar except for rounding, and runs on them with all that verification wants.
 #pragma once
 
 #include <functional>
