@@ -34,8 +34,8 @@ GOOD = {
     "mesher/io/inflate.cpp": "#include <zlib.h>\n",
     "oracles/report.h": "#pragma once\n#include <gmpxx.h>\n#include \"mesher/delmesher.h\"\n",
     "property_tests/laws_test.cpp": "#include \"oracles/report.h\"\n#include \"mesher/refine/refine.h\"\n",
-    "mesher/named_options.h": "#pragma once\n",
-    "python/bindings.cpp": "#include <pybind11/stl.h>\n#include \"mesher/delmesher.h\"\n#include \"mesher/named_options.h\"\n",
+    "mesher/delmesher/option_table.h": "#pragma once\n",
+    "python/bindings.cpp": "#include <pybind11/stl.h>\n#include \"mesher/delmesher.h\"\n#include \"mesher/delmesher/option_table.h\"\n",
     "corpus/peers/tetgen/adapter.cpp": "#include <tetgen.h>\n",
     "corpus/peers/tetgen/LICENSE.md": "Links TetGen, which is under the AGPL.\n",
 }

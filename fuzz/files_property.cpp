@@ -219,7 +219,7 @@ Finding mesh_reader_holds(const std::string& text, const std::string& name) {
           labelled(mesh.boundary, mesh.boundary_labels)) {
     return "mesh reader round trip: differs";
   }
-  delmesher::Options options;
+  delmesher::ImproveOptions options;
   options.max_vertices = 3000;
   const delmesher::Result result = delmesher::improve_mesh(mesh, options);
   if (result.status.code == delmesher::StatusCode::invalid_mesh) {
@@ -264,12 +264,12 @@ Finding command_line_holds(const std::string& text) {
     return known ? "" : "command line: parsing ends with " + std::to_string(parsed.exit_code);
   }
   std::string said;
-  const auto fails = [](const delmesher::Surface&, const delmesher::Options&) {
+  const auto fails = [](const delmesher::Surface&, const auto&) {
     delmesher::Result result;
     result.status = {delmesher::StatusCode::invalid_surface, "not a surface"};
     return result;
   };
-  const auto no_surface = [](const delmesher::Surface&, const delmesher::Options&) {
+  const auto no_surface = [](const delmesher::Surface&, const delmesher::CheckOptions&) {
     delmesher::SurfaceReport report;
     report.status = {delmesher::StatusCode::invalid_surface, "not a surface"};
     return report;

@@ -91,7 +91,7 @@ TEST(Members, BelowAnUlpAreWrittenPositive) {
   for (const auto& [family, member] : members) {
     // Otherwise the member would show nothing.
     const auto surface = generate(*find_family(family), 1, member);
-    delmesher::Options as_given;
+    delmesher::CheckOptions as_given;
     as_given.planar = 0;
     EXPECT_LT(delmesher::check_surface(*surface, as_given).smallest_local_feature_size, 0x1p-53);
     EXPECT_GT(expect_written_positive(family, member).rounding_repaired, 0U) << family << member;
@@ -113,7 +113,8 @@ TEST(Members, ThinWallsTakeFewPoints) {
   for (const auto& [family, member] : members) {
     const auto surface = generate(*find_family(family), 1, member);
     ASSERT_TRUE(surface);
-    delmesher::Options options;
+    delmesher::CdtOptions options;
+    options.region = delmesher::Region::interior;
     options.max_vertices = 5000;  // of at most 128; there were tens of millions
     EXPECT_TRUE(delmesher::constrained_delaunay(*surface, options).status.ok()) << family << member;
     EXPECT_EQ(fuzz::cdt_holds(*surface), "") << family << member;

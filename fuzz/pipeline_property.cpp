@@ -80,11 +80,11 @@ bool rounded_beyond_features(const Surface& surface, const oracles::VerifyReport
   return below_8_ulp(surface);
 }
 
-Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
-                 oracles::Task task = oracles::Task::mesh) {
+Finding verified(const Surface& surface, const Result& result, Stage stage,
+                 const oracles::Promise& promise) {
   oracles::VerifyOptions wanted;
   wanted.stage = stage;
-  wanted.promised = oracles::promise_of(options, task);
+  wanted.promised = promise;
   oracles::VerifyReport report;
   const std::string refusal =
       oracles::verify(as_polyhedron(surface), as_file(result.mesh), &result.exact, wanted, report);
@@ -143,7 +143,7 @@ Finding judged_as_written(const Surface& surface, const Result& result) {
   return !left && report.any_failed() ? "file " + first_failure(report) : "";
 }
 
-Finding judged(const Surface& surface, const Result& result, const Options& options, bool refined) {
+Finding judged(const Surface& surface, const Result& result, const oracles::Promise& promise) {
   switch (result.status.code) {
     case StatusCode::ok:
       break;
@@ -160,11 +160,10 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
     return {};
   }
   if (left + s.rounding_inexact > 0) return judged_as_written(surface, result);
-  if (refined) {
-    if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
+  if (promise.task == oracles::Task::mesh) {
+    if (Finding f = verified(surface, result, Stage::refined, promise); !f.empty()) return f;
   }
-  return verified(surface, result, Stage::final, options,
-                  refined ? oracles::Task::mesh : oracles::Task::cdt);
+  return verified(surface, result, Stage::final, promise);
 }
 
 Points times(Points points, int exponent) {
@@ -275,11 +274,12 @@ Result meshed(const Surface& surface, Options& options) {
 Finding cdt_holds(const Surface& surface) {
   judging(
       {&too_many_vertices, &too_precise, &within_roundings, &inexact_repairs, &left_by_rounding});
-  Options options;
+  delmesher::CdtOptions options;
   options.want_exact = true;
+  options.region = delmesher::Region::interior;
   options.max_vertices = kMostVertices;
   const Result result = delmesher::constrained_delaunay(surface, options);
-  return judged(surface, result, options, false);
+  return judged(surface, result, oracles::promise_of(options));
 }
 
 Finding refinement_holds(const Surface& surface) {
@@ -292,7 +292,7 @@ Finding refinement_holds(const Surface& surface) {
   // The refined mesh keeps all its points, also where there is no room for them as written.
   const delmesher::Statistics& s = result.statistics;
   if (s.rounding_inverted + s.rounding_flat > 0) return judged_as_written(surface, result);
-  return verified(surface, result, Stage::refined, options);
+  return verified(surface, result, Stage::refined, oracles::promise_of(options));
 }
 
 Finding pipeline_holds(const Surface& surface) {
@@ -301,7 +301,7 @@ Finding pipeline_holds(const Surface& surface) {
            &explained_by_place});
   Options options = options_for(surface);
   const Result result = meshed(surface, options);
-  if (Finding f = judged(surface, result, options, true); !f.empty()) return f;
+  if (Finding f = judged(surface, result, oracles::promise_of(options)); !f.empty()) return f;
   if (!result.status.ok()) return {};
   const int scales[] = {0, 0, 0, 300, -300, 65, -47, 1};
   const int exponent = scales[(hash_of(surface) >> 13) % 8];
@@ -327,8 +327,9 @@ Finding default_pipeline_holds(const Surface& surface) {
   if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
     return "rounding: inverted or flat tetrahedra are left";
   }
-  if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
-  return verified(surface, result, Stage::final, options);
+  const oracles::Promise promise = oracles::promise_of(options);
+  if (Finding f = verified(surface, result, Stage::refined, promise); !f.empty()) return f;
+  return verified(surface, result, Stage::final, promise);
 }
 
 }  // namespace tetproof::fuzz

@@ -14,8 +14,8 @@ namespace tetproof::fuzz {
 namespace {
 
 using delmesher::Insideness;
-using delmesher::Options;
 using delmesher::PlanarGraph;
+using delmesher::PlaneOptions;
 using delmesher::PlaneResult;
 using delmesher::StatusCode;
 using Point = std::array<double, 2>;
@@ -128,9 +128,9 @@ PlanarGraph read_graph(Bytes& bytes) {
   return graph;
 }
 
-Options options_for(Bytes& bytes) {
+PlaneOptions options_for(Bytes& bytes) {
   const std::uint32_t flags = bytes.byte();
-  Options options = delmesher::plane_options();
+  PlaneOptions options;
   options.want_exact = true;
   options.max_vertices = kMostVertices;
   options.acute = (flags & 1) != 0 ? 60 : 90;
@@ -222,7 +222,7 @@ Finding at_limit(const PlanarGraph& graph, const delmesher::Status& status) {
   return "plane limit: " + status.message;
 }
 
-Finding judged(const PlanarGraph& graph, const Options& options) {
+Finding judged(const PlanarGraph& graph, const PlaneOptions& options) {
   const PlaneResult result = delmesher::triangulate_polygon(graph, options);
   const bool refused = result.status.code == StatusCode::invalid_surface;
   if (!is_valid(graph)) {
@@ -242,7 +242,7 @@ Finding judged(const PlanarGraph& graph, const Options& options) {
 }
 
 // Prints, for people, the command line that does the same, and its input.
-void print(const PlanarGraph& graph, const Options& options) {
+void print(const PlanarGraph& graph, const PlaneOptions& options) {
   std::fprintf(stderr, "# delmesher plane --tau %g --delta %g --acute %g --region %s%s\n",
                options.tau, options.delta, options.acute,
                options.region == delmesher::Region::hull ? "hull" : "interior",
@@ -271,7 +271,7 @@ Finding plane_holds(Bytes bytes) {
   const std::uint32_t scale = bytes.below(16);
   if (scale != 15) bytes.narrow(6);
   if (scale < 14) bytes.spread();
-  const Options options = options_for(bytes);
+  const PlaneOptions options = options_for(bytes);
   const PlanarGraph graph = read_graph(bytes);
   const Finding finding = judged(graph, options);
   if (!finding.empty()) print(graph, options);

@@ -10,6 +10,7 @@
 #include "corpus/generators/generate.h"
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/delmesher_files.h"
 #include "property_tests/leniency.h"
 
@@ -53,6 +54,12 @@ Options options_of(std::uint32_t variant) {
   options.want_exact = options.want_chamfered = variant == 7;
   options.max_vertices = kMostVertices;
   return options;
+}
+
+delmesher::CdtOptions cdt_options(const Options& options) {
+  auto cdt = delmesher::options::taken_from<delmesher::CdtOptions>(options);
+  cdt.want_exact = options.want_exact;
+  return cdt;
 }
 
 bool same(const TetMesh& m, const TetMesh& n) {
@@ -182,9 +189,11 @@ class Sequence {
   Result answer(const Call& call, const Options& options) const {
     switch (call.kind) {
       case Call::Kind::cdt:
-        return delmesher::constrained_delaunay(surfaces_[call.subject], options);
+        return delmesher::constrained_delaunay(surfaces_[call.subject], cdt_options(options));
       case Call::Kind::improve:
-        return delmesher::improve_mesh(meshes_[call.subject], options);
+        return delmesher::improve_mesh(
+            meshes_[call.subject],
+            delmesher::options::taken_from<delmesher::ImproveOptions>(options));
       default:
         return delmesher::tetrahedralize(surfaces_[call.subject], options);
     }

@@ -1,10 +1,15 @@
 // Checks a surface without meshing it: its validity, its facets and how hard it is to mesh.
+#include <string>
+#include <utility>
+
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/policies/fallback.h"
 #include "mesher/policies/planes.h"
+#include "mesher/run/options.h"
 #include "mesher/run/session.h"
 #include "mesher/surface/feature_size.h"
 #include "mesher/surface/validity.h"
@@ -17,10 +22,14 @@ using namespace policies;  // NOLINT(google-build-using-namespace)
 
 }  // namespace
 
-SurfaceReport check_surface(const Surface& surface, const Options& options) {
+SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
   SurfaceReport report;
+  const auto options = options::taken_from<Options>(given);
   Control control(options);
   const Status status = guarded(control, [&]() -> Status {
+    if (std::string defect = options_defect(given); !defect.empty()) {
+      return {StatusCode::invalid_options, std::move(defect)};
+    }
     control.enter(Phase::check);
     ValidityResult validity = check_validity(surface, false, control);
     report = std::move(validity.report);

@@ -2,16 +2,20 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <new>
-#include <string_view>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "mesher/delmesher.h"
-#include "mesher/named_options.h"
+#include "mesher/delmesher/option_table.h"
 
 struct delmesher_options {
-  delmesher::Options values;
+  std::map<std::string, double, std::less<>> values;
+  std::vector<delmesher::SizeSource> size_field;
+  std::function<bool(const delmesher::Progress&)> progress;
 };
 
 struct delmesher_result {
@@ -20,6 +24,7 @@ struct delmesher_result {
 
 namespace {
 
+using delmesher::CdtOptions;
 using delmesher::Options;
 using delmesher::Result;
 using delmesher::StatusCode;
@@ -62,13 +67,35 @@ Surface surface_of(const delmesher_surface& given) {
   return surface;
 }
 
-template <class Call>
-delmesher_result* result_of(const delmesher_surface* surface, const delmesher_options* options,
-                            Call call) {
+// The options of a job; empty, or what it does not use.
+template <class JobOptions>
+std::string take(const delmesher_options& given, JobOptions& options) {
+  for (const auto& [name, value] : given.values) {
+    if (!delmesher::options::set(options, name, value)) return name;
+  }
+  options.progress = given.progress;
+  if constexpr (requires { options.size_field; }) {
+    options.size_field = given.size_field;
+  } else if (!given.size_field.empty()) {
+    return "size_field";
+  }
+  return {};
+}
+
+template <class JobOptions>
+delmesher_result* result_of(const delmesher_surface* surface, const delmesher_options* given,
+                            Result (*call)(const Surface&, const JobOptions&)) {
   auto* result = new (std::nothrow) delmesher_result;
   if (result == nullptr || surface == nullptr) return result;
   try {
-    result->value = call(surface_of(*surface), options != nullptr ? options->values : Options{});
+    JobOptions options;
+    const std::string unused = given != nullptr ? take(*given, options) : "";
+    if (unused.empty()) {
+      result->value = call(surface_of(*surface), options);
+    } else {
+      result->value.status = {StatusCode::invalid_options, unused + " is not an option of this job",
+                              delmesher::Limit::none};
+    }
   } catch (const std::bad_alloc&) {
     result->value.status = {StatusCode::limit_reached, "out of memory", delmesher::Limit::memory};
   }
@@ -96,7 +123,17 @@ void delmesher_options_free(delmesher_options* options) {
 
 int delmesher_options_set(delmesher_options* options, const char* name, double value) {
   if (options == nullptr || name == nullptr) return -1;
-  return delmesher::set_option(options->values, name, value) ? 0 : -1;
+  Options mesh;
+  CdtOptions cdt;
+  if (!delmesher::options::set(mesh, name, value) && !delmesher::options::set(cdt, name, value)) {
+    return -1;
+  }
+  try {
+    options->values[name] = value;
+  } catch (...) {
+    return -1;
+  }
+  return 0;
 }
 
 int delmesher_options_size_field(delmesher_options* options, const double* sources,
@@ -108,7 +145,7 @@ int delmesher_options_size_field(delmesher_options* options, const double* sourc
       const double* source = sources + 4 * n;
       field[n] = {{source[0], source[1], source[2]}, source[3]};
     }
-    options->values.size_field = std::move(field);
+    options->size_field = std::move(field);
   } catch (...) {
     return -1;
   }
@@ -118,9 +155,9 @@ int delmesher_options_size_field(delmesher_options* options, const double* sourc
 void delmesher_options_progress(delmesher_options* options, delmesher_progress progress,
                                 void* user) {
   if (options == nullptr) return;
-  options->values.progress = nullptr;
+  options->progress = nullptr;
   if (progress == nullptr) return;
-  options->values.progress = [progress, user](const delmesher::Progress& p) {
+  options->progress = [progress, user](const delmesher::Progress& p) {
     return progress(user, delmesher::phase_name(p.phase), p.done, p.vertices) == 0;
   };
 }

@@ -39,18 +39,18 @@ typedef enum {
 } delmesher_status;
 /* NOLINTEND(readability-identifier-naming) */
 
-/* Options by the names of delmesher::Options: delta, tau, budget, acute, corner, gabriel, improve,
- * slivers, approximate, simplify_bridges, chamfer_radius, planar (-1: automatic), max_edge,
- * size_growth, order, steiner_point, region (0 interior, 1 hull), max_vertices, time_limit,
- * threads. Switches are 0 or 1. Whether a value makes sense is said by the call that uses it. */
+/* Options by their names in docs/options.md, with _ for -. Switches are 0 or 1, and so is a choice
+ * of two; planar is -1 for auto; paper_NAME is a choice of --as-paper. A call rejects options that
+ * it does not use, and values out of range, with DELMESHER_INVALID_OPTIONS. */
 struct delmesher_options;
 typedef struct delmesher_options delmesher_options;
 delmesher_options* delmesher_options_new(void); /* NULL if there is no memory */
 void delmesher_options_free(delmesher_options* options);
-/* 0, or -1 if there is no such option or the value is none of its type. */
+/* 0, or -1 if there is no such option, if the value is not of its kind (a switch of 2, half a
+ * thread), or if there is no memory. The last value of an option counts. */
 int delmesher_options_set(delmesher_options* options, const char* name, double value);
 
-/* Options::size_field: n_sources times x y z size, of which a copy is taken. 0, or -1 if there is
+/* The option size_field: n_sources times x y z size, of which a copy is taken. 0, or -1 if there is
  * no memory. */
 int delmesher_options_size_field(delmesher_options* options, const double* sources,
                                  size_t n_sources);

@@ -7,6 +7,7 @@
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/geometry/vector.h"
 #include "mesher/improve/given_mesh.h"
 #include "mesher/improve/improve.h"
@@ -197,13 +198,14 @@ Status improve_given(const TetMesh& given, Session& s, Result& result) {
   return {};
 }
 
-Result run_improvement(const TetMesh& mesh, const Options& options) {
+Result run_improvement(const TetMesh& mesh, const ImproveOptions& given) {
   Result result;
+  const auto options = options::taken_from<Options>(given);
   Control control(options);
   Session session(options, control);
   Recorder recorder(session, result);
   result.status = guarded(control, [&]() -> Status {
-    if (std::string defect = options_defect(options, kBounds); !defect.empty()) {
+    if (std::string defect = options_defect(given); !defect.empty()) {
       return {StatusCode::invalid_options, std::move(defect)};
     }
     session.sizes = SizeField(options.size_field, options.size_growth);
@@ -215,7 +217,7 @@ Result run_improvement(const TetMesh& mesh, const Options& options) {
 
 }  // namespace
 
-Result improve_mesh(const TetMesh& mesh, const Options& options) {
+Result improve_mesh(const TetMesh& mesh, const ImproveOptions& options) {
   return in_ordinary_units(mesh, options, run_improvement);
 }
 

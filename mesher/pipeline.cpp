@@ -9,6 +9,7 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/enrich/enrichment.h"
 #include "mesher/improve/diagonals.h"
 #include "mesher/improve/improve.h"
@@ -276,7 +277,7 @@ Result run(Pipeline pipeline, const Surface& surface, const Options& options,
   Session session(options, control, frame);
   Recorder recorder(session, result);
   result.status = guarded(control, [&]() -> Status {
-    if (const std::string defect = options_defect(options, kBounds); !defect.empty()) {
+    if (const std::string defect = options_defect(options); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     session.sizes = SizeField(options.size_field, options.size_growth);
@@ -306,7 +307,9 @@ Result tetrahedralize(const Surface& surface, const Options& options) {
   return in_ordinary_units(surface, options, run_mesh);
 }
 
-Result constrained_delaunay(const Surface& surface, const Options& options) {
+Result constrained_delaunay(const Surface& surface, const CdtOptions& given) {
+  auto options = options::taken_from<Options>(given);
+  options.want_exact = given.want_exact;
   return in_ordinary_units(surface, options, run_plain_cdt);
 }
 

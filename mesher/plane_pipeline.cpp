@@ -1,11 +1,14 @@
 // The order of the stages in the plane (section 3), and nothing else.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/base/validating.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/delmesher_plane.h"
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/enrich.h"
@@ -144,7 +147,7 @@ void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
 // Narrow channels and extreme scales may ask for any number of triangles. Unless told otherwise,
 // nobody shall wait for a machine that runs out of memory.
 std::uint64_t default_limit(const PlanarGraph& graph) {
-  constexpr auto kMost = static_cast<std::uint64_t>(kPlaneBounds.max_vertices.high);
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;  // an index
   return std::min(10'000'000 + 64 * static_cast<std::uint64_t>(graph.vertices.size()), kMost);
 }
 
@@ -153,15 +156,16 @@ std::uint64_t default_limit(const PlanarGraph& graph) {
 
 namespace delmesher {
 
-PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& given) {
+PlaneResult triangulate_polygon(const PlanarGraph& graph, const PlaneOptions& given) {
   PlaneResult result;
-  Options options = given;
+  PlaneOptions options = given;
   if (options.max_vertices == 0) options.max_vertices = plane::default_limit(graph);
-  base::Control control(options);
+  const auto limits = options::taken_from<Limits>(options);
+  base::Control control(limits);
   plane::Session session(options, control);
   plane::Recorder recorder(session, result);
   result.status = base::guarded(control, [&]() -> Status {
-    if (const std::string defect = run::options_defect(options, kPlaneBounds); !defect.empty()) {
+    if (const std::string defect = run::options_defect(options); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     plane::mesh(graph, session, recorder);

@@ -53,15 +53,15 @@ std::vector<samples::NamedSurface> solids() {
   return all;
 }
 
-void expect_verified(const Surface& surface, const Options& options, const Result& result,
-                     Task task = Task::mesh) {
+void expect_verified(const Surface& surface, const oracles::Promise& promise,
+                     const Result& result) {
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   VerifyReport report;
-  const Stage stage = options.approximate ? Stage::refined
-                      : task == Task::cdt ? Stage::final
-                                          : Stage::both;
+  const Stage stage = promise.approximate         ? Stage::refined
+                      : promise.task == Task::cdt ? Stage::final
+                                                  : Stage::both;
   EXPECT_EQ(verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh), &result.exact,
-                   {.stage = stage, .promised = promise_of(options, task)}, report),
+                   {.stage = stage, .promised = promise}, report),
             "");
   EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
 }
@@ -72,14 +72,20 @@ Options with_record() {
   return options;
 }
 
+delmesher::CdtOptions cdt_with_record() {
+  delmesher::CdtOptions options;
+  options.want_exact = true;
+  options.region = delmesher::Region::interior;
+  return options;
+}
+
 constexpr Position kFar = {0x1p40, -0x1p41, 0x1.8p39};
 
 // Nothing but the origin of the record, and the roundings, tells that it is far away: the same
 // tetrahedra, the same points beside the origin. The planar bound is of the coordinates as given,
 // so it is left out.
 TEST(FarAway, IsMeshedLikeNearby) {
-  Options options = with_record();
-  options.planar = 0;
+  const delmesher::CdtOptions options = cdt_with_record();
   for (const auto& [name, surface] : solids()) {
     SCOPED_TRACE(name);
     const Result near = delmesher::constrained_delaunay(surface, options);
@@ -114,11 +120,11 @@ TEST(FarAway, PassesTheOraclesWithEveryOption) {
       const bool fine = !choices[n].size_field.empty() || choices[n].max_edge > 0;
       if (fine && name != "wedge") continue;  // the others are large: many tetrahedra
       SCOPED_TRACE(name + ", choice " + std::to_string(n));
-      expect_verified(far, choices[n], delmesher::tetrahedralize(far, choices[n]));
+      expect_verified(far, promise_of(choices[n]), delmesher::tetrahedralize(far, choices[n]));
     }
     SCOPED_TRACE(name + ", cdt");
-    const Options plain = with_record();
-    expect_verified(far, plain, delmesher::constrained_delaunay(far, plain), Task::cdt);
+    const delmesher::CdtOptions plain = cdt_with_record();
+    expect_verified(far, promise_of(plain), delmesher::constrained_delaunay(far, plain));
   }
 }
 
@@ -130,7 +136,8 @@ TEST(FarAway, OfFewRoundingsIsMeshed) {
     for (const double away : {0x1p44, 0x1p49}) {
       SCOPED_TRACE(name + " at " + std::to_string(std::log2(away)));
       const Surface far = moved(surface, {away, -away, 0});
-      expect_verified(far, with_record(), delmesher::tetrahedralize(far, with_record()));
+      expect_verified(far, promise_of(with_record()),
+                      delmesher::tetrahedralize(far, with_record()));
     }
   }
 }
@@ -160,7 +167,7 @@ TEST(FarAway, WithoutRoomForPointsIsMeshedWithoutThem) {
                           {3, 4, 7}},
                          {}};
   const Result result = delmesher::tetrahedralize(solid, with_record());
-  expect_verified(solid, with_record(), result);
+  expect_verified(solid, promise_of(with_record()), result);
   EXPECT_EQ(result.statistics.rounding_inverted + result.statistics.rounding_flat, 0U);
 }
 
@@ -172,7 +179,7 @@ TEST(FarAway, InExtremeUnits) {
       for (double& x : p) x = std::ldexp(x, exponent);
     }
     const Result result = delmesher::tetrahedralize(far, with_record());
-    expect_verified(far, with_record(), result);
+    expect_verified(far, promise_of(with_record()), result);
     EXPECT_EQ(result.exact.origin, (Position{0, std::ldexp(0x1p40, exponent), 0}));
   }
 }

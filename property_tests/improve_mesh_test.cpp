@@ -21,6 +21,7 @@
 namespace tetproof {
 namespace {
 
+using delmesher::ImproveOptions;
 using delmesher::Options;
 using delmesher::Result;
 using delmesher::StatusCode;
@@ -120,7 +121,7 @@ struct Law {
   Result result;
   TetMesh before;
 
-  explicit Law(TetMesh mesh, const Options& options = {})
+  explicit Law(TetMesh mesh, const ImproveOptions& options = {})
       : result(delmesher::improve_mesh(mesh, options)), before(std::move(mesh)) {
     EXPECT_TRUE(result.status.ok()) << result.status.message;
     if (!result.status.ok()) return;
@@ -294,7 +295,7 @@ TEST(ImproveMesh, MakesNoEdgeThatIsTooLong) {
     }
     return length;
   };
-  Options options;
+  ImproveOptions options;
   options.max_edge = longest(cube());
   const Law law(cube(), options);
   EXPECT_LE(longest(law.result.mesh), options.max_edge);
@@ -304,7 +305,7 @@ TEST(ImproveMesh, MakesNoEdgeThatIsTooLong) {
 // Near one corner, where the mesh must be fine; far from there it becomes coarser.
 TEST(ImproveMesh, MakesNoEdgeAboveTheSizeField) {
   const Point corner = cube().vertices[cube().tetrahedra[0][0]];
-  Options options;
+  ImproveOptions options;
   options.size_growth = 0.5;
   // The edges that exceed what they may be, among those of all tetrahedra.
   const auto too_long = [&](const TetMesh& mesh, double size) {
@@ -350,7 +351,7 @@ TEST(ImproveMesh, RefusesWithItsOwnStatus) {
   EXPECT_EQ(result.status.code, StatusCode::invalid_mesh);
   EXPECT_EQ(result.status.message.find("2 regions for "), 0U) << result.status.message;
   EXPECT_EQ(delmesher::improve_mesh({}).status.message, "there are no tetrahedra");
-  Options options;
+  ImproveOptions options;
   options.delta = 31;
   EXPECT_EQ(delmesher::improve_mesh(cube(), options).status.code, StatusCode::invalid_options);
   options = {};

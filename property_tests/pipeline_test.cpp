@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/output/statistics.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
@@ -145,32 +146,32 @@ TEST_P(Models, AreMeshedExactlyAsThePaperSays) {
 // Every choice alone, with a filter that has something to drop.
 TEST(AsPaper, EveryChoiceKeepsItsPromises) {
   const std::vector<NamedSurface> models = samples::surfaces(kSeed);
-  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
-    SCOPED_TRACE(choice.name);
+  for (const std::string& choice : delmesher::options::paper_choices<Options>()) {
+    SCOPED_TRACE(choice);
     for (std::size_t n = 0; n < models.size(); n += 7) {
       Options options = default_options();
       options.improve = false;
       options.tau = 0x1p-6;
       options.gabriel = true;  // what the guard does is tried elsewhere
       options.acute = options.corner = 90;
-      options.as_paper.*choice.member = true;
+      EXPECT_TRUE(delmesher::options::set(options, choice, 1));
       expect_right(models[n], options);
     }
     Options options = default_options();
     options.tau = 0x1p-9;  // the slab goes
-    options.as_paper.*choice.member = true;
-    if (choice.member == &delmesher::AsPaper::no_guard) continue;  // might run for ever
+    EXPECT_TRUE(delmesher::options::set(options, choice, 1));
+    if (options.as_paper.no_guard) continue;  // might run for ever
     expect_right({"wedge and slab", samples::wedge_and_slab()}, options);
   }
 }
 
 TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {
-  Options options = default_options();
-  options.region = delmesher::Region::hull;
+  delmesher::CdtOptions options;
+  options.want_exact = true;
   const Result result = delmesher::constrained_delaunay(GetParam().surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  const VerifyReport report = check(GetParam().surface, result,
-                                    {.promised = oracles::promise_of(options, oracles::Task::cdt)});
+  const VerifyReport report =
+      check(GetParam().surface, result, {.promised = oracles::promise_of(options)});
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
 }
 
@@ -393,10 +394,10 @@ TEST(Limits, AreErrorsAsValues) {
   expect_refused(options, "tau must be between 0 and 1");
   options = {};
   options.max_edge = -1;
-  expect_refused(options, "max edge must be at least 0");
+  expect_refused(options, "max_edge must be at least 0");
   options = {};
   options.size_growth = 0;
-  expect_refused(options, "size growth must be above 0 and at most 1");
+  expect_refused(options, "size_growth must be above 0 and at most 1");
   for (const delmesher::SizeSource& wrong :
        {delmesher::SizeSource{{0, 0, 0}, 0}, delmesher::SizeSource{{0, 0, 0}, HUGE_VAL},
         delmesher::SizeSource{{0, std::nan(""), 0}, 1}}) {

@@ -23,13 +23,14 @@ int iterations(int normal) {
   return times == nullptr ? normal : std::max(1, std::atoi(times)) * normal;
 }
 
-Options exact_options() {
-  Options options = plane_options();
+PlaneOptions exact_options() {
+  PlaneOptions options;
   options.want_exact = true;
   return options;
 }
 
-PlaneResult expect_verified(const PlanarGraph& graph, const Options& options = exact_options()) {
+PlaneResult expect_verified(const PlanarGraph& graph,
+                            const PlaneOptions& options = exact_options()) {
   PlaneResult result = triangulate_polygon(graph, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   if (!result.status.ok()) return result;
@@ -40,7 +41,7 @@ PlaneResult expect_verified(const PlanarGraph& graph, const Options& options = e
   return result;
 }
 
-std::string refusal(const PlanarGraph& graph, const Options& options = plane_options()) {
+std::string refusal(const PlanarGraph& graph, const PlaneOptions& options = {}) {
   const PlaneResult result = triangulate_polygon(graph, options);
   EXPECT_EQ(result.status.code, StatusCode::invalid_surface);
   EXPECT_TRUE(result.mesh.triangles.empty());
@@ -55,13 +56,13 @@ std::vector<std::array<double, 2>> scaled(std::vector<std::array<double, 2>> poi
 
 // Every oracle, and the bound down to the outer box.
 TEST(Plane, AsThePaperSays) {
-  Options options = paper_plane_options();
+  PlaneOptions options = paper_plane_options();
   options.want_exact = true;
   const PlanarGraph graphs[] = {shapes::square(), shapes::star(7, 0.2), shapes::comb(6, 0.1),
                                 shapes::koch(3), shapes::nested_squares(3)};
   for (const PlanarGraph& graph : graphs) {
     const PlaneResult result = expect_verified(graph, options);
-    EXPECT_GE(result.statistics.refined.min_angle, plane_options().delta);
+    EXPECT_GE(result.statistics.refined.min_angle, PlaneOptions().delta);
   }
 }
 
@@ -81,7 +82,7 @@ TEST(Plane, Families) {
 TEST(Plane, OptionsKeepTheirPromises) {
   for (const Region region : {Region::interior, Region::hull}) {
     for (const double acute : {60.0, 90.0}) {
-      Options options = exact_options();
+      PlaneOptions options = exact_options();
       options.region = region;
       options.acute = acute;
       expect_verified(shapes::figure(), options);
@@ -95,7 +96,7 @@ TEST(Plane, OptionsKeepTheirPromises) {
       expect_verified(shapes::figure(), options);
     }
   }
-  Options options = exact_options();
+  PlaneOptions options = exact_options();
   options.max_edge = 0.1;
   const PlaneResult fine = expect_verified(shapes::square(), options);
   for (const auto& t : fine.mesh.triangles) {
@@ -107,7 +108,7 @@ TEST(Plane, OptionsKeepTheirPromises) {
 }
 
 TEST(Plane, BeyondTheProvenBound) {
-  Options options = exact_options();
+  PlaneOptions options = exact_options();
   options.delta = 30;
   const PlaneResult result = expect_verified(shapes::figure(), options);
   EXPECT_EQ(result.statistics.guaranteed_delta, 30);
@@ -140,7 +141,7 @@ TEST(Plane, TinyAngles) {
   for (int seed = 0; seed < n; ++seed) {
     const shapes::Named input = shapes::tiny_angles(static_cast<std::uint64_t>(seed));
     SCOPED_TRACE(input.name + " " + std::to_string(seed));
-    Options options = exact_options();
+    PlaneOptions options = exact_options();
     // The larger the channels that are refined, the longer the oracles take.
     options.tau = seed % 16 == 0 ? 1e-4 : 1e-2;
     options.region = seed % 5 == 0 ? Region::hull : Region::interior;
@@ -200,7 +201,7 @@ TEST(Plane, OrderAndDirectionOfSegmentsDoNotMatter) {
               0.2 * static_cast<double>(first.mesh.triangles.size()));
   PlanarGraph turned = graph;
   for (auto& p : turned.vertices) p = {-p[1], p[0]};  // exact: a quarter turn
-  Options options = exact_options();
+  PlaneOptions options = exact_options();
   expect_verified(turned, options);
 }
 
@@ -262,7 +263,7 @@ TEST(Plane, RotatedAndRoundedAGraphCostsNoMore) {
       }
       const PlaneResult result = expect_verified(turned);
       EXPECT_NEAR(static_cast<double>(result.mesh.triangles.size()), straight, 0.1 * straight);
-      EXPECT_GE(result.statistics.refined.min_angle, plane_options().delta);
+      EXPECT_GE(result.statistics.refined.min_angle, PlaneOptions().delta);
     }
   }
 }
@@ -344,11 +345,11 @@ TEST(Plane, HugeCoordinates) {
   // is no matter, unless the rectangle is asked for, as it is in a record.
   for (const double size : {0.7e308, 1.5e308}) {
     const PlanarGraph graph = shapes::polygon({{0, 0}, {size, 0}, {0, size}});
-    const PlaneResult inside = triangulate_polygon(graph, plane_options());
+    const PlaneResult inside = triangulate_polygon(graph);
     EXPECT_TRUE(inside.status.ok()) << inside.status.message;
     EXPECT_FALSE(inside.mesh.triangles.empty());
     for (const Region region : {Region::interior, Region::hull}) {
-      Options options = exact_options();
+      PlaneOptions options = exact_options();
       options.region = region;
       if (size > DBL_MAX / 1.5) {
         EXPECT_NE(refusal(graph, options).find("beyond the largest double"), std::string::npos);
@@ -396,7 +397,7 @@ TEST(Plane, NoRoomBetweenDoubles) {
 TEST(Plane, ExtremeScales) {
   // Squares and fourth powers of the small lengths vanish beside the large ones. Good triangles
   // must not be taken for bad, or the refinement does not end.
-  Options options = exact_options();
+  PlaneOptions options = exact_options();
   options.max_vertices = 50000;
   const double up = std::nextafter(6.0, 7.0);
   expect_verified(shapes::polygon({{1e151, -2.7e28}, {6, 6}, {up, up}}), options);
@@ -433,7 +434,7 @@ TEST(Plane, SubnormalSizes) {
       graph.segments.push_back({0, 4});
       if (k < -1072) graph = shapes::polygon({{0, 0}, {1, 0}, {0, 1}});
       graph.vertices = scaled(graph.vertices, k);
-      Options options = exact_options();
+      PlaneOptions options = exact_options();
       options.region = region;
       const PlaneResult result = triangulate_polygon(graph, options);
       EXPECT_EQ(result.status.ok(), k > -1044) << k << " " << result.status.message;
@@ -459,7 +460,7 @@ TEST(Plane, TheOuterBoxIsBeyondAGraphOfAnUlp) {
     PlanarGraph graph;
     graph.vertices = {{sign, sign}, {sign, sign * (1 - kUlp)}, {sign * (1 - kUlp), sign}};
     graph.segments = {{0, 1}, {1, 2}, {2, 0}};
-    const PlaneResult result = triangulate_polygon(graph, plane_options());
+    const PlaneResult result = triangulate_polygon(graph);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_EQ(result.mesh.triangles.size(), 1U);
   }
@@ -479,20 +480,20 @@ TEST(Plane, WhatIsAsSmallAsAnUlpHasASide) {
 }
 
 TEST(Plane, LimitsAndOptions) {
-  Options options = plane_options();
+  PlaneOptions options;
   options.max_vertices = 3;
   EXPECT_EQ(triangulate_polygon(shapes::square(), options).status.code, StatusCode::limit_reached);
   options.max_vertices = 4;
   EXPECT_TRUE(triangulate_polygon(shapes::square(), options).status.ok());
   options.max_vertices = 50;
   EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::limit_reached);
-  options = plane_options();
+  options = {};
   options.time_limit_seconds = 1e-9;
   EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::limit_reached);
-  options = plane_options();
+  options = {};
   options.progress = [](const Progress&) { return false; };
   EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::interrupted);
-  options = plane_options();
+  options = {};
   options.acute = 45;
   EXPECT_EQ(triangulate_polygon(shapes::square(), options).status.code,
             StatusCode::invalid_options);
@@ -506,7 +507,7 @@ TEST(Plane, LimitsAndOptions) {
 
 TEST(PlaneOracle, NoticesWhatIsWrong) {
   const PlanarGraph graph = shapes::figure();
-  const Options options = exact_options();
+  const PlaneOptions options = exact_options();
   const PlaneResult good = triangulate_polygon(graph, options);
   ASSERT_TRUE(tetproof::verify_plane(graph, options, good).ok());
   const auto noticed = [&](const char* kind, const std::function<void(PlaneResult&)>& spoil) {
@@ -548,7 +549,7 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
 TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
   // A flip of an edge of the refined mesh leaves all but this right.
   const PlanarGraph graph = shapes::square();
-  Options options = exact_options();
+  PlaneOptions options = exact_options();
   options.max_edge = 0.3;
   PlaneResult result = triangulate_polygon(graph, options);
   auto& triangles = result.exact.refined;

@@ -350,17 +350,15 @@ TEST(CdtStage, SchoenhardtsPolyhedronIsFilledWithSteinerPoints) {
       s.triangles.push_back({i, j, i + 3});  // the diagonal that the turn makes reflex
       s.triangles.push_back({j, j + 3, i + 3});
     }
-    Options options;
+    delmesher::CdtOptions options;
     options.want_exact = true;
-    options.region = delmesher::Region::hull;
     const Result result = delmesher::constrained_delaunay(s, options);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_GT(result.statistics.steiner_on_segments, 0U) << turn;
     VerifyReport report;
-    EXPECT_EQ(
-        oracles::verify(samples::to_polyhedron(s), samples::to_mesh(result.mesh), &result.exact,
-                        {.promised = oracles::promise_of(options, oracles::Task::cdt)}, report),
-        "");
+    EXPECT_EQ(oracles::verify(samples::to_polyhedron(s), samples::to_mesh(result.mesh),
+                              &result.exact, {.promised = oracles::promise_of(options)}, report),
+              "");
     EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
     const oracles::OracleReport* cdt = report.find("exact-constrained-delaunay");
     ASSERT_NE(cdt, nullptr);

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/delmesher_files.h"
 #include "mesher/delmesher_plane.h"
-#include "mesher/named_options.h"
 
 namespace py = pybind11;
 
@@ -83,28 +83,97 @@ Surface surface_of(const Array<double>& points, const Array<std::uint32_t>& tria
   return surface;
 }
 
-void set_options(Options& options, const py::dict& given) {
-  for (const auto& [key, value] : given) {
-    const auto name = py::cast<std::string>(key);
+// As docstrings say it.
+std::string type_of(const options::Value& option) {
+  static constexpr const char* kTypes[] = {"float", "int", "bool", "",
+                                           "(k, 4) array_like of float"};
+  std::string type = kTypes[static_cast<std::size_t>(option.kind)];
+  for (const options::Word& word : option.text.words) {
+    if (word.word.empty()) continue;
+    type += (type.empty() ? "'" : " or '") + std::string(word.word) + "'";
+  }
+  return type;
+}
+
+template <class JobOptions>
+bool set_option(JobOptions& job, const std::string& name, const py::handle& value) {
+  if constexpr (requires { job.size_field; }) {
     if (name == "size_field") {
       for (const auto& [x, y, z, size] :
            rows_of<double, 4>(py::cast<Array<double>>(value), "size_field")) {
-        options.size_field.push_back({{x, y, z}, size});
+        job.size_field.push_back({{x, y, z}, size});
       }
-      continue;
-    }
-    const auto number = py::cast<double>(value);
-    if (!set_option(options, name, number)) {
-      throw py::value_error("option " + name + " cannot be " +
-                            py::cast<std::string>(py::str(value)));
+      return true;
     }
   }
+  if (py::isinstance<py::str>(value)) {
+    return options::set(job, name, std::string_view(py::cast<std::string>(value)));
+  }
+  return options::set(job, name,
+                      py::cast<double>(py::float_(py::reinterpret_borrow<py::object>(value))));
+}
+
+// " (but 'interior' or 'hull')", where an option has words.
+template <class JobOptions>
+std::string words_of(const JobOptions& job, const std::string& name) {
+  std::string words;
+  for (const options::Value& option : options::values_of(job)) {
+    if (option.text.name == name) words = type_of(option);
+  }
+  return words.find('\'') == std::string::npos ? "" : " (but " + words + ")";
+}
+
+template <class JobOptions>
+JobOptions options_of(const py::dict& given) {
+  JobOptions job;
+  for (const auto& [key, value] : given) {
+    const auto name = py::cast<std::string>(key);
+    if (!set_option(job, name, value)) {
+      throw py::value_error(name + " cannot be " + py::cast<std::string>(py::repr(value)) +
+                            words_of(job, name));
+    }
+  }
+  return job;
+}
+
+// A default as Python writes it.
+py::object default_of(const options::Value& option) {
+  if (option.kind == options::Kind::sources || option.text.zero_is_none) return py::none();
+  for (const options::Word& word : option.text.words) {
+    if (!word.word.empty() && word.value == option.value) return py::str(std::string(word.word));
+  }
+  if (option.kind == options::Kind::on_off) return py::bool_(option.value != 0);
+  if (option.kind == options::Kind::count) return py::int_(static_cast<std::int64_t>(option.value));
+  return py::float_(option.value);
+}
+
+// The options of a job: name, type, default, unit, meaning.
+template <class JobOptions>
+std::vector<py::tuple> described() {
+  static constexpr const char* kUnits[] = {"", "degrees", "in units of the input", "seconds"};
+  std::vector<py::tuple> rows;
+  for (const options::Value& option : options::values_of(JobOptions())) {
+    rows.push_back(py::make_tuple(
+        std::string(option.text.name), type_of(option), default_of(option),
+        kUnits[static_cast<std::size_t>(option.text.unit)], std::string(option.text.help)));
+  }
+  return rows;
+}
+
+py::dict all_described() {
+  py::dict jobs;
+  jobs["mesh"] = described<Options>();
+  jobs["cdt"] = described<CdtOptions>();
+  jobs["plane"] = described<PlaneOptions>();
+  jobs["improve"] = described<ImproveOptions>();
+  jobs["check"] = described<CheckOptions>();
+  return jobs;
 }
 
 // Lets Ctrl-C and a callable end a run, a few times a second, while other threads of Python go on.
 class Watch {
  public:
-  Watch(Options& options, py::object progress) : progress_(std::move(progress)) {
+  Watch(TimeLimit& options, py::object progress) : progress_(std::move(progress)) {
     options.progress = [this](const Progress& p) { return go_on(p); };
   }
 
@@ -215,16 +284,13 @@ py::dict dict_of(Result&& result) {
   return d;
 }
 
+template <class JobOptions, Result (*job)(const Surface&, const JobOptions&)>
 py::dict mesh(const Array<double>& points, const Array<std::uint32_t>& triangles,
-              const Labels& labels, const py::dict& given, py::object progress, bool plain) {
+              const Labels& labels, const py::dict& given, py::object progress) {
   const Surface surface = surface_of(points, triangles, labels);
-  Options options;
-  if (plain) options.region = Region::hull;
-  set_options(options, given);
+  auto options = options_of<JobOptions>(given);
   Watch watch(options, std::move(progress));
-  return dict_of(watch.run([&] {
-    return plain ? constrained_delaunay(surface, options) : tetrahedralize(surface, options);
-  }));
+  return dict_of(watch.run([&] { return job(surface, options); }));
 }
 
 TetMesh mesh_of(const py::dict& d) {
@@ -243,8 +309,7 @@ TetMesh mesh_of(const py::dict& d) {
 
 py::dict improve(const py::dict& given_mesh, const py::dict& given, py::object progress) {
   const TetMesh before = mesh_of(given_mesh);
-  Options options;
-  set_options(options, given);
+  auto options = options_of<ImproveOptions>(given);
   Watch watch(options, std::move(progress));
   return dict_of(watch.run([&] { return improve_mesh(before, options); }));
 }
@@ -252,8 +317,7 @@ py::dict improve(const py::dict& given_mesh, const py::dict& given, py::object p
 py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangles,
                const py::dict& given) {
   const Surface surface = surface_of(points, triangles, std::nullopt);
-  Options options;
-  set_options(options, given);
+  auto options = options_of<CheckOptions>(given);
   Watch watch(options, py::none());
   SurfaceReport report = watch.run([&] { return check_surface(surface, options); });
   py::dict d, counts, places;
@@ -306,8 +370,7 @@ py::dict plane(const Array<double>& points, const Array<std::uint32_t>& segments
   graph.segments = rows_of<std::uint32_t, 2>(segments, "segments");
   graph.markers = labels_of(markers, "markers", graph.segments.size(), "segments");
   graph.holes = rows_of<double, 2>(holes, "holes");
-  Options options = plane_options();
-  set_options(options, given);
+  auto options = options_of<PlaneOptions>(given);
   Watch watch(options, std::move(progress));
   PlaneResult result = watch.run([&] { return triangulate_polygon(graph, options); });
   py::dict d, stats;
@@ -375,8 +438,9 @@ void write_surface_file(const std::string& path, const Array<double>& points,
 PYBIND11_MODULE(_core, module) {
   module.doc() = "What tetproof is made of; use tetproof instead.";
   module.attr("version") = version();
-  module.def("option_names", &option_names);
-  module.def("mesh", &mesh);
+  module.attr("options") = all_described();
+  module.def("mesh", &mesh<Options, tetrahedralize>);
+  module.def("cdt", &mesh<CdtOptions, constrained_delaunay>);
   module.def("improve", &improve);
   module.def("check", &check);
   module.def("repair", &repair);

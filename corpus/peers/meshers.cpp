@@ -14,7 +14,7 @@
 #include "corpus/campaigns/shell.h"
 #include "corpus/models/sha256.h"
 #include "corpus/peers/peers.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
 
@@ -36,7 +36,7 @@ constexpr OwnVariant kOwn[] = {
     {"delmesher-e4", "mesh --preset paper"},
     {"safe-delmesher-e4", "mesh --preset paper --slivers off"},
     {"delmesher-nofilter", "mesh --preset paper --tau 0"},
-    {"delmesher-nobridges", "mesh --preset paper --no-bridge-simplification"},
+    {"delmesher-nobridges", "mesh --preset paper --simplify-bridges off"},
     {"cdt", "cdt --region hull"}};
 // One deviation from the default at a time, towards the paper: of the parameters and of
 // section 8.3. Each of the choices of --as-paper is another one.
@@ -107,13 +107,22 @@ Mesher own_mesher(const std::string& name, const std::string& arguments,
   return mesher;
 }
 
+// The names that --as-paper takes.
+std::vector<std::string> paper_choices() {
+  std::vector<std::string> names;
+  for (const std::string& name : delmesher::options::paper_choices<delmesher::Options>()) {
+    names.push_back(delmesher::options::argument_name(name));
+  }
+  return names;
+}
+
 // The options of `delmesher+NAME`; empty if nothing is called NAME.
 std::string deviation(const std::string& name) {
   for (const OwnVariant& variant : kDeviations) {
     if (name == variant.name) return variant.arguments;
   }
-  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
-    if (name == choice.name) return "mesh --as-paper " + name;
+  for (const std::string& choice : paper_choices()) {
+    if (name == choice) return "mesh --as-paper " + name;
   }
   return {};
 }
@@ -380,9 +389,7 @@ std::vector<std::string> ablation_names() {
   for (const OwnVariant& variant : kDeviations) {
     names.push_back(std::string("delmesher+") + variant.name);
   }
-  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
-    names.push_back(std::string("delmesher+") + choice.name);
-  }
+  for (const std::string& choice : paper_choices()) names.push_back("delmesher+" + choice);
   names.emplace_back("delmesher-e4");
   return names;
 }

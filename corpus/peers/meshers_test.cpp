@@ -1,6 +1,6 @@
 #include "corpus/peers/meshers.h"
 #include "corpus/peers/peers.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/option_table.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -66,7 +66,7 @@ TEST_F(Meshers, EveryDeviationAlone) {
   const std::vector<std::string> names = ablation_names();
   EXPECT_EQ(names.front(), "delmesher");
   EXPECT_EQ(names.back(), "delmesher-e4");
-  EXPECT_EQ(names.size(), 2 + 6 + std::size(delmesher::kPaperChoices));
+  EXPECT_EQ(names.size(), 2 + 6 + delmesher::options::paper_choices<delmesher::Options>().size());
   for (const std::string& name : names) EXPECT_EQ(make_mesher(name, programs_).name, name);
 }
 

@@ -45,7 +45,7 @@ struct Mesher {
 };
 
 // `verified`: a second run has to pass the oracles, after the time was taken.
-Mesher delmesher_plane(const delmesher::Options& options, bool verified);
+Mesher delmesher_plane(const delmesher::PlaneOptions& options, bool verified);
 Mesher cgal_mesh_2();
 // The graph as Triangle wants it: with a point in each hole.
 PlanarGraph with_hole_points(const PlanarGraph& graph);
@@ -77,6 +77,7 @@ std::string summary(const std::vector<Row>& rows);
 
 // The paper's figure 2 for an input: five pictures as one SVG, and its numbers as a table. Throws
 // std::runtime_error.
-void write_figure(const Input& input, const delmesher::Options& options, const std::string& folder);
+void write_figure(const Input& input, const delmesher::PlaneOptions& options,
+                  const std::string& folder);
 
 }  // namespace tetproof::plane_bench

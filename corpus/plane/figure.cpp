@@ -47,7 +47,7 @@ std::string numbers(const PlaneMesh& mesh, const PlaneMeshStatistics* angles) {
   return text + std::to_string(mesh.triangles.size()) + degrees;
 }
 
-PlaneResult meshed(const PlanarGraph& graph, const delmesher::Options& options) {
+PlaneResult meshed(const PlanarGraph& graph, const delmesher::PlaneOptions& options) {
   PlaneResult result = delmesher::triangulate_polygon(graph, options);
   if (!result.status.ok()) throw std::runtime_error(result.status.message);
   return result;
@@ -75,10 +75,10 @@ void save(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-void write_figure(const Input& input, const delmesher::Options& options,
+void write_figure(const Input& input, const delmesher::PlaneOptions& options,
                   const std::string& folder) {
   fs::create_directories(folder);
-  delmesher::Options approximate = options;
+  delmesher::PlaneOptions approximate = options;
   approximate.approximate = approximate.want_chamfered = true;
   const PlaneResult refined = meshed(input.graph, approximate);
   const PlaneResult final = meshed(input.graph, options);

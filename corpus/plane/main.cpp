@@ -76,7 +76,7 @@ std::vector<Row> measured(const Input& input, const std::vector<Mesher>& meshers
 
 int run(const Arguments& arguments) {
   if (!arguments.write.empty()) return write_family(arguments);
-  delmesher::Options options = delmesher::plane_options();
+  delmesher::PlaneOptions options;
   options.delta = arguments.delta;
   if (!arguments.figure.empty()) {
     write_figure(arguments.files.empty() ? family("figure") : file(arguments.files[0]), options,

@@ -72,7 +72,7 @@ double seconds_of_children() {
 }
 
 // A run with its record, for the oracles.
-void verify(const PlanarGraph& graph, delmesher::Options options, Measurement& m) {
+void verify(const PlanarGraph& graph, delmesher::PlaneOptions options, Measurement& m) {
   options.want_exact = true;
   const delmesher::PlaneResult result = delmesher::triangulate_polygon(graph, options);
   if (result.mesh.triangles.size() != m.triangles ||
@@ -86,7 +86,7 @@ void verify(const PlanarGraph& graph, delmesher::Options options, Measurement& m
 
 }  // namespace
 
-Mesher delmesher_plane(const delmesher::Options& options, bool verified) {
+Mesher delmesher_plane(const delmesher::PlaneOptions& options, bool verified) {
   Mesher mesher;
   mesher.name = "delmesher plane";
   mesher.run = [options](const PlanarGraph& graph, Measurement& m) {

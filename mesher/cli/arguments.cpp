@@ -3,16 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
-#include <map>
-#include <optional>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "mesher/cli/defects.h"
 #include "mesher/cli/help.h"
+#include "mesher/cli/job_options.h"
 #include "mesher/cli/nearest.h"
 #include "mesher/io/output.h"
 #include "mesher/io/read_mesh.h"
@@ -23,349 +22,188 @@
 namespace delmesher::cli {
 namespace {
 
-// The options as the user gave them. Where one was not given, the preset's value stands.
+// What is not in Command yet.
 struct Given {
-  // As text, so that they are read like numbers in files: in no locale, and never inf or nan.
-  std::map<std::string, std::string> numbers;
-  std::optional<bool> slivers, improve;
-  std::optional<Region> region;
-  std::optional<AsPaper> as_paper;
-  bool approximate = false, gabriel = false, no_bridges = false, paper = false;
+  GivenOptions options;
   std::vector<std::string> inputs;
 };
 
-// The option is to be left out where the library says 0 for none.
-Bounds positive(Bounds bounds) {
-  bounds.above_low = true;
-  return bounds;
-}
-Bounds at_least_one(Bounds bounds) {
-  bounds.low = 1;
-  return bounds;
-}
-
-// "above 0 and at most 30"
-std::string range_text(const Bounds& bounds) {
-  const auto number = [](double x) {
-    std::string text;
-    io::append_double(text, x);
-    return text;
-  };
-  const std::string low = (bounds.above_low ? "above " : "at least ") + number(bounds.low);
-  return bounds.high == kNoBound ? low : low + ", at most " + number(bounds.high);
-}
-
-CLI::Validator number_within(Bounds bounds, bool whole = false) {
-  return CLI::Validator(
-      [bounds, whole](std::string& text) -> std::string {
-        double value = 0;
-        if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
-        if (whole && value != std::floor(value)) return "not a whole number: " + text;
-        return bounds.allow(value) ? "" : "out of range: " + text + " (" + range_text(bounds) + ")";
-      },
-      "NUMBER");
-}
-
-// "largest angle (30)" -> "largest angle (30; above 0, at most 90)", where there is a limit that
-// one may come near.
-std::string with_range(std::string help, const Bounds& bounds) {
-  constexpr double kFar = 1e6;
-  if (bounds.high > kFar) return help;
-  if (!help.ends_with(')')) return help + " (" + range_text(bounds) + ")";
-  help.back() = ';';
-  return help + " " + range_text(bounds) + ")";
-}
-
-CLI::Option* add_number(CLI::App& app, Given& given, const std::string& name, const char* help,
-                        Bounds bounds) {
-  return app
-      .add_option_function<std::string>(
-          "--" + name, [&given, name](const std::string& text) { given.numbers[name] = text; },
-          with_range(help, bounds))
-      ->check(number_within(bounds))
-      ->type_name("X");
-}
-
-// A whole number.
-void add_count(CLI::App& app, Given& given, const std::string& name, const char* help,
-               Bounds bounds) {
-  add_number(app, given, name, help, bounds)->check(number_within(bounds, true))->type_name("N");
-}
-
-constexpr const char* kAuto = "auto";
-
-void add_planar(CLI::App& app, Given& given) {
-  app.add_option_function<std::string>(
-         "--planar", [&given](const std::string& text) { given.numbers["planar"] = text; },
-         with_range(
-             "facets that are planar within this fraction of the diagonal, 0 is as given (auto)",
-             kBounds.planar))
-      ->check(CLI::IsMember({kAuto}) | number_within(kBounds.planar))
-      ->type_name("X");
-}
+constexpr auto kRepeatable = CLI::MultiOptionPolicy::TakeAll;
 
 constexpr const char* kSurfaces =
     "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input";
 void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
   app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
-  add_count(app, given, "jobs", "how many of several inputs at a time, 0: one per core (1)",
-            kBounds.threads);
+  add_count(app, given.options, "jobs", "how many of several inputs at a time, 0: one per core (1)",
+            {.high = 1024});
   auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
   app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
 }
 
-void add_threads(CLI::App& app, Given& given) {
-  add_count(app, given, "threads", "threads that share the work, 0: one per core (1)",
-            kBounds.threads);
-}
-
-// The options of every job that writes a mesh.
-void add_outputs(CLI::App& app, Command& command, Given& given, const std::string& extensions) {
-  app.add_option("-o,--output", command.outputs,
-                 "mesh to write: " + extensions +
-                     "; may be repeated; {name} is the input's name without folder and extension, "
-                     "-.EXT is standard output")
+// The options of every job that writes something.
+void add_outputs(CLI::App& app, Command& command, const std::string& help) {
+  app.add_option("-o,--output", command.outputs, help + "; may be repeated")
       ->required()
       ->expected(1)
       ->take_all()
       ->type_name("FILE");
-  add_count(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
-            at_least_one(kBounds.max_vertices));
-  add_number(app, given, "time-limit", "stop after this many seconds (exit 5)",
-             positive(kBounds.seconds));
-  app.add_option("--stats", command.stats_file, "write statistics as JSON")->type_name("FILE");
 }
 
-void add_run(CLI::App& app, Command& command, Given& given,
-             const std::string& extensions = io::mesh_extensions()) {
-  add_outputs(app, command, given, extensions);
-  app.add_option_function<std::string>(
-         "--region",
-         [&given](const std::string& text) {
-           given.region = text == "hull" ? Region::hull : Region::interior;
-         },
-         "what is written: interior or hull")
-      ->check(CLI::IsMember({"interior", "hull"}))
-      ->type_name("interior|hull");
-  app.add_option("--exact", command.exact_file, "write the exact form of everything")
-      ->type_name("FILE");
+void add_file(CLI::App& app, Command& command, const char* name, std::string Command::*file,
+              const std::string& help) {
+  app.add_option(name, command.*file, help)->type_name("FILE");
 }
 
-// Names with commas between them, all, or none. Empty if there is another name than those of `all`.
-std::optional<AsPaper> as_paper_of(const std::string& text, const AsPaper& all) {
-  AsPaper choices;
-  if (text == "none") return choices;
-  if (text == "all") return all;
-  std::istringstream names(text + ",");
-  for (std::string name; std::getline(names, name, ',');) {
-    const auto* choice =
-        std::find_if(std::begin(kPaperChoices), std::end(kPaperChoices),
-                     [&](const NamedChoice& c) { return c.name == name && all.*c.member; });
-    if (choice == std::end(kPaperChoices)) return {};
-    choices.*choice->member = true;
-  }
-  return choices;
+void add_mesh_outputs(CLI::App& app, Command& command, const std::string& extensions) {
+  add_outputs(app, command,
+              "mesh to write: " + extensions +
+                  "; {name} is the input's name without folder and extension, -.EXT is standard "
+                  "output");
+  add_file(app, command, "--stats", &Command::stats_file, "write statistics as JSON");
+  app.add_flag("--ascii", command.write.ascii, ".msh and .vtu as text, not as bytes");
 }
 
-std::string paper_choices(const AsPaper& all) {
-  std::string names;
-  for (const NamedChoice& choice : kPaperChoices) {
-    if (all.*choice.member) names += (names.empty() ? "" : ", ") + std::string(choice.name);
-  }
-  return names;
+void add_exact(CLI::App& app, Command& command) {
+  add_file(app, command, "--exact", &Command::exact_file, "write the exact form of everything");
 }
 
-// `all`: those that there are.
-void add_as_paper(CLI::App& app, Given& given, const AsPaper& all) {
-  app.add_option_function<std::string>(
-         "--as-paper",
-         [&given, all](const std::string& text) { given.as_paper = as_paper_of(text, all); },
-         "what is done as the paper says: " + paper_choices(all) +
-             ", with commas, all, or none (none)")
-      ->check(CLI::Validator(
-          [all](std::string& text) -> std::string {
-            return as_paper_of(text, all)
-                       ? ""
-                       : "none of " + paper_choices(all) + ", all, none: " + text;
-          },
-          "LIST"))
-      ->type_name("LIST");
+void add_chamfered(CLI::App& app, Command& command, const char* help) {
+  add_file(app, command, "--save-chamfered", &Command::chamfered_file, help);
 }
 
 void add_names(CLI::App& app, Command& command) {
-  app.add_option("--names", command.names_file, "file of lines LABEL NAME: what labels are called")
-      ->type_name("FILE");
-}
-
-void add_ascii(CLI::App& app, Command& command) {
-  app.add_flag("--ascii", command.write.ascii, ".msh and .vtu as text, not as bytes");
+  add_file(app, command, "--names", &Command::names_file,
+           "file of lines LABEL NAME: what labels are called");
 }
 
 // How a mesh in space is written.
 void add_writing(CLI::App& app, Command& command) {
+  add_mesh_outputs(app, command, io::mesh_extensions());
   add_names(app, command);
   app.add_option("--order", command.write.order,
                  "1, or 2: ten-node tetrahedra with straight edges (1)")
       ->check(CLI::IsMember({1, 2}))
       ->type_name("N");
-  add_ascii(app, command);
 }
 
-void add_sizes(CLI::App& app, Command& command, Given& given) {
-  app.add_option("--size-field", command.sizes_file,
-                 "smaller edges in places: lines X Y Z SIZE, or a .pos of Gmsh")
-      ->type_name("FILE");
-  add_number(app, given, "size-growth",
-             "how much larger edges may be per distance from there (0.3)", kBounds.growth);
+template <class Job>
+void add_options_of(CLI::App& app, Given& given, const std::vector<options::Value>& preset = {}) {
+  add_options(app, given.options, options::values_of(Job()), preset);
 }
 
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
-  add_run(app, command, given);
   add_writing(app, command);
-  add_number(app, given, "delta", "smallest face angle, degrees (14.47)", kBounds.delta);
-  add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
-             kBounds.tau);
-  add_planar(app, given);
-  add_count(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
-            at_least_one(kBounds.budget));
-  add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", kBounds.acute);
-  add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
-             kBounds.corner);
-  app.add_flag("--gabriel", given.gabriel,
-               "split constraints until their diametral balls are empty");
-  app.add_option_function<std::string>(
-         "--slivers", [&given](const std::string& text) { given.slivers = text == "on"; },
-         "treat slivers in the refinement: on or off (on)")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->type_name("on|off");
-  app.add_option_function<std::string>(
-         "--improve", [&given](const std::string& text) { given.improve = text == "on"; },
-         "fewer and better tetrahedra by local operations: on or off (on)")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->type_name("on|off");
-  app.add_flag("--approximate", given.approximate,
-               "stop before restoring the input: a mesh of the chamfered surface");
-  add_number(app, given, "chamfer-radius", "how far a chamfer may reach", positive(kBounds.length));
-  add_number(app, given, "max-edge", "largest edge", positive(kBounds.length));
-  add_sizes(app, command, given);
-  add_as_paper(app, given, paper_options().as_paper);
-  app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
-  app.add_option_function<std::string>(
-         "--preset", [&given](const std::string&) { given.paper = true; },
-         "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, improve off, "
-         "as-paper all, region hull; other options override it")
-      ->check(CLI::IsMember({"paper"}))
-      ->type_name("paper");
-  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF")
-      ->type_name("FILE");
-  add_threads(app, given);
+  add_exact(app, command);
+  add_chamfered(app, command, "write the chamfered surface, OFF");
+  add_options_of<Options>(app, given, options::values_of(paper_options()));
+}
+
+void add_cdt(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given);
+  add_writing(app, command);
+  add_exact(app, command);
+  add_options_of<CdtOptions>(app, given);
+}
+
+void add_plane(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given,
+             "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
+  add_mesh_outputs(app, command, io::plane_extensions());
+  add_exact(app, command);
+  add_chamfered(app, command, "write the chamfered graph, .poly");
+  add_options_of<PlaneOptions>(app, given, options::values_of(paper_plane_options()));
 }
 
 void add_improve(CLI::App& app, Command& command, Given& given) {
   const std::string input =
       "mesh of tetrahedra: " + io::read_mesh_extensions() + ", - is standard input";
   add_common(app, command, given, input.c_str());
-  add_outputs(app, command, given, io::mesh_extensions());
   add_writing(app, command);
-  add_number(app, given, "delta", "no smaller face angle is made, degrees (14.47)", kBounds.delta);
-  add_number(app, given, "max-edge", "no longer edge is made", positive(kBounds.length));
-  add_sizes(app, command, given);
-  add_threads(app, given);
+  add_options_of<ImproveOptions>(app, given);
 }
 
-void add_plane(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command, given,
-             "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
-  add_run(app, command, given, io::plane_extensions());
-  add_ascii(app, command);
-  add_number(app, given, "delta", "smallest angle, degrees (20.7)", kPlaneBounds.delta);
-  add_number(app, given, "tau", "narrowest channel refined, width over length, 0 is off (1e-4)",
-             kPlaneBounds.tau);
-  add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)",
-             kPlaneBounds.acute);
-  app.add_flag("--approximate", given.approximate,
-               "stop before restoring the input: a mesh of the chamfered graph");
-  add_number(app, given, "chamfer-radius", "how far a chamfer may reach",
-             positive(kPlaneBounds.length));
-  add_number(app, given, "max-edge", "largest edge", positive(kPlaneBounds.length));
-  add_as_paper(app, given, paper_plane_options().as_paper);
-  app.add_option_function<std::string>(
-         "--preset", [&given](const std::string&) { given.paper = true; },
-         "paper: delta 20.7, tau 0, acute 90, as-paper all, region hull; other options override "
-         "it")
-      ->check(CLI::IsMember({"paper"}))
-      ->type_name("paper");
-  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered graph, .poly")
-      ->type_name("FILE");
+void add_check(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given);
+  app.add_flag("--json", command.json, "report as JSON");
+  add_file(app, command, "--defects", &Command::defects_file,
+           "write the surface as .ply, its triangles coloured by what is wrong at them, or as "
+           ".vtu with numbers for that");
+  add_options_of<CheckOptions>(app, given);
 }
 
 void add_repair(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
-  app.add_option("-o,--output", command.outputs,
-                 "surface to write: " + io::boundary_extensions() + "; may be repeated")
-      ->required()
-      ->expected(1)
-      ->take_all()
-      ->type_name("FILE");
-  add_number(app, given, "weld", "join vertices no farther apart than this, in units of the input",
-             positive(kBounds.length));
-  app.add_flag("--fill", command.repair.fill,
-               "fill holes that are planar, or narrower than a twentieth of the diagonal");
+  add_outputs(app, command, "surface to write: " + io::boundary_extensions());
   add_names(app, command);
-  add_threads(app, given);
+  add_options_of<RepairOptions>(app, given);
 }
 
-void apply(const Given& given, Command& command) {
-  Options& options = command.options;
-  if (command.job == Job::plane) {
-    options = given.paper ? paper_plane_options() : plane_options();
-  } else if (given.paper) {
-    options = paper_options();
+template <class Job>
+Job options_of(const Given& given, Job start = {}) {
+  take(given.options, start);
+  return start;
+}
+
+void apply(Job job, const Given& given, Command& command) {
+  const bool paper = given.options.contains("preset");
+  if (const auto file = given.options.find("size_field"); file != given.options.end()) {
+    command.sizes_file = file->second;
   }
-  if (command.job == Job::cdt) options.region = Region::hull;
-  const auto number = [&](const char* name, double& target) {
-    const auto found = given.numbers.find(name);
-    if (found != given.numbers.end()) io::parse_double(found->second, target);
+  const auto wanted = [&](auto options) {
+    options.want_exact = !command.exact_file.empty();
+    if constexpr (requires { options.want_chamfered; }) {
+      options.want_chamfered = !command.chamfered_file.empty();
+    }
+    return options;
   };
-  number("delta", options.delta);
-  number("tau", options.tau);
-  number("planar", options.planar);
-  if (const auto found = given.numbers.find("planar");
-      found != given.numbers.end() && found->second == kAuto) {
-    options.planar = kPlanarAuto;
+  switch (job) {
+    case Job::mesh:
+      command.options = wanted(options_of(given, paper ? paper_options() : Options()));
+      break;
+    case Job::cdt:
+      command.options = wanted(options_of<CdtOptions>(given));
+      break;
+    case Job::plane:
+      command.options = wanted(options_of(given, paper ? paper_plane_options() : PlaneOptions()));
+      break;
+    case Job::check:
+      command.options = options_of<CheckOptions>(given);
+      break;
+    case Job::improve:
+      command.options = options_of<ImproveOptions>(given);
+      break;
+    case Job::repair:
+      command.options = options_of<RepairOptions>(given);
+      break;
   }
-  number("acute", options.acute);
-  number("corner", options.corner);
-  options.gabriel |= given.gabriel;
-  number("chamfer-radius", options.chamfer_radius);
-  number("max-edge", options.max_edge);
-  number("size-growth", options.size_growth);
-  number("weld", command.repair.weld);
-  number("time-limit", options.time_limit_seconds);
-  double vertices = 0, budget = 0, threads = 1;
-  number("max-vertices", vertices);
-  number("budget", budget);
-  number("threads", threads);
-  options.threads = static_cast<unsigned>(threads);
-  options.budget = static_cast<std::uint64_t>(budget);
-  options.max_vertices = static_cast<std::uint64_t>(vertices);
-  options.improve = given.improve.value_or(options.improve);
-  options.slivers = given.slivers.value_or(options.slivers);
-  options.as_paper = given.as_paper.value_or(options.as_paper);
-  options.region = given.region.value_or(options.region);
-  options.approximate = given.approximate;
-  options.simplify_bridges = !given.no_bridges;
-  options.want_exact = !command.exact_file.empty();
-  options.want_chamfered = !command.chamfered_file.empty();
 }
 
 unsigned jobs_of(const Given& given) {
-  double jobs = 1;
-  if (const auto found = given.numbers.find("jobs"); found != given.numbers.end()) {
-    io::parse_double(found->second, jobs);
+  const auto found = given.options.find("jobs");
+  if (found == given.options.end()) return 1;
+  const auto jobs = static_cast<unsigned>(number_of(found->second));
+  return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
+}
+
+bool has_text_form(const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  return io::equal_ignoring_case(extension, ".msh") || io::equal_ignoring_case(extension, ".vtu");
+}
+
+// An option without effect is a mistake.
+std::string idle_option(const Command& command, const Given& given) {
+  if (given.options.contains("jobs") && given.inputs.size() == 1) {
+    return "--jobs: of no effect with one input, see --threads";
   }
-  return jobs > 0 ? static_cast<unsigned>(jobs) : std::max(1U, std::thread::hardware_concurrency());
+  if (given.options.contains("size_growth") && command.sizes_file.empty()) {
+    return "--size-growth: of no effect without --size-field";
+  }
+  if (command.write.ascii &&
+      std::none_of(command.outputs.begin(), command.outputs.end(), has_text_form)) {
+    return "--ascii: of no effect but on .msh and .vtu";
+  }
+  return {};
 }
 
 // Files that would overwrite each other or the input; unknown formats. `seen`: the files of other
@@ -374,10 +212,10 @@ std::string output_error(const Command& command, bool several,
                          std::vector<std::filesystem::path>& seen) {
   // An .ele stands for several files; the files beside it are read, too.
   std::vector<std::string> files = {command.input};
-  if (command.job == Job::improve) files = io::mesh_files_read(command.input);
-  const bool plane = command.job == Job::plane;
+  if (command.job() == Job::improve) files = io::mesh_files_read(command.input);
+  const bool plane = command.job() == Job::plane;
   for (const std::string& output : command.outputs) {
-    const bool surface = command.job == Job::repair;
+    const bool surface = command.job() == Job::repair;
     const std::vector<std::string> made = plane     ? io::plane_files_of(output)
                                           : surface ? io::boundary_files_of(output)
                                                     : io::mesh_files_of(output);
@@ -398,9 +236,8 @@ std::string output_error(const Command& command, bool several,
     }
     files.insert(files.end(), made.begin(), made.end());
   }
-  for (const std::string* file :
-       {&command.stats_file, &command.chamfered_file, &command.exact_file, &command.defects_file}) {
-    if (!file->empty()) files.push_back(*file);
+  for (const auto file : kWrittenBeside) {
+    if (!(command.*file).empty()) files.push_back(command.*file);
   }
   if (std::count_if(files.begin() + 1, files.end(), io::is_standard_stream) > 1) {
     return "standard output can take one file";
@@ -438,13 +275,10 @@ std::string output_error(const Command& command, bool several,
 // Several runs would mix their output.
 bool shares_standard_output(const std::vector<Command>& batch) {
   return batch.size() > 1 && std::any_of(batch.begin(), batch.end(), [](const Command& command) {
-           const std::string* files[] = {&command.stats_file, &command.chamfered_file,
-                                         &command.exact_file, &command.defects_file};
            return std::any_of(command.outputs.begin(), command.outputs.end(),
                               io::is_standard_stream) ||
-                  std::any_of(std::begin(files), std::end(files), [](const std::string* file) {
-                    return io::is_standard_stream(*file);
-                  });
+                  std::any_of(std::begin(kWrittenBeside), std::end(kWrittenBeside),
+                              [&](auto file) { return io::is_standard_stream(command.*file); });
          });
 }
 
@@ -501,8 +335,8 @@ std::string commands_with(const std::vector<CLI::App*>& subcommands, const std::
   return commands;
 }
 
-// The first option of the command line that the command has not; CLI11 would name something else
-// first.
+// The first option of the command line that the command has not, or that is there twice; CLI11
+// would name something else first.
 std::string unknown_option(const CLI::App& app, const std::vector<CLI::App*>& subcommands,
                            const std::vector<std::string>& arguments) {
   std::vector<std::string> names;
@@ -510,6 +344,7 @@ std::string unknown_option(const CLI::App& app, const std::vector<CLI::App*>& su
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
+  std::set<const CLI::Option*> seen;
   for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string& word = arguments[i];
     if (word.size() < 2 || word[0] != '-' || word[1] == '.') continue;
@@ -521,6 +356,9 @@ std::string unknown_option(const CLI::App& app, const std::vector<CLI::App*>& su
              (others.empty() ? suggestion(name, names) : others);
     }
     const CLI::Option* option = app.get_option(name);
+    const bool may_be_repeated = option->get_multi_option_policy() == kRepeatable;
+    if (!seen.insert(option).second && !may_be_repeated)
+      return io::in_quotes(name) + ": given twice";
     const bool has_value = is_long ? name.size() < word.size() : word.size() > 2;
     if (option->get_expected_max() > 0 && !has_value) ++i;  // whatever its value looks like
   }
@@ -542,34 +380,8 @@ std::string with_name(std::string text, const std::string& input) {
 Command for_input(Command command, const std::string& input) {
   command.input = input;
   for (std::string& output : command.outputs) output = with_name(output, input);
-  for (std::string* file :
-       {&command.stats_file, &command.chamfered_file, &command.exact_file, &command.defects_file}) {
-    *file = with_name(*file, input);
-  }
+  for (const auto file : kWrittenBeside) command.*file = with_name(command.*file, input);
   return command;
-}
-
-void add_cdt(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command, given);
-  add_run(app, command, given);
-  add_writing(app, command);
-  add_threads(app, given);
-}
-
-void add_check(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command, given);
-  add_planar(app, given);
-  app.add_flag("--json", command.json, "report as JSON");
-  app.add_option(
-         "--defects", command.defects_file,
-         "write the surface as .ply, its triangles coloured by what is wrong at them, or as "
-         ".vtu with numbers for that")
-      ->type_name("FILE");
-  add_number(app, given, "acute", "corners below this angle are acute, degrees (60)",
-             kBounds.acute);
-  add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
-             kBounds.corner);
-  add_threads(app, given);
 }
 
 constexpr const char* kExitCodes =
@@ -708,8 +520,10 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     return usage_error(line);
   }
-  command.job = subcommands.job();
-  apply(given, command);
+  apply(subcommands.job(), given, command);
+  if (const std::string error = idle_option(command, given); !error.empty()) {
+    return usage_error(error);
+  }
   if (const std::string error = make_batch(command, given, parsed); !error.empty()) {
     return usage_error(error);
   }

@@ -1,7 +1,9 @@
 // The command line, parsed and checked.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "mesher/delmesher_files.h"
@@ -15,19 +17,27 @@ enum class Job : std::uint8_t { mesh, cdt, plane, check, improve, repair };
 inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kLimit = 5,
                      kInternal = 6, kInterrupted = 130;
 
+// In the order of Job.
+using JobOptions =
+    std::variant<Options, CdtOptions, PlaneOptions, CheckOptions, ImproveOptions, RepairOptions>;
+
 struct Command {
-  Job job = Job::mesh;
   std::string input;
   std::vector<std::string> outputs;
-  Options options;
+  JobOptions options;
   std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
   std::string names_file;                              // empty: names of the input
   std::string sizes_file;                              // empty: no size field
   std::string defects_file;                            // of check
   io::WriteOptions write;
-  RepairOptions repair;
   bool json = false, quiet = false, verbose = false;
+
+  Job job() const { return static_cast<Job>(options.index()); }
 };
+
+// The files that are written beside the outputs.
+inline constexpr std::string Command::*kWrittenBeside[] = {
+    &Command::stats_file, &Command::chamfered_file, &Command::exact_file, &Command::defects_file};
 
 // Either a command to run, or a text to print and an exit code.
 struct Parsed {

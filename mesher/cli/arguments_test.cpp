@@ -4,15 +4,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
+
+#include "mesher/cli/test_option_values.h"
+#include "mesher/delmesher/option_table.h"
 
 namespace delmesher::cli {
 namespace {
 
 Parsed parse(std::vector<std::string> arguments) {
   return parse_arguments(std::move(arguments));
+}
+
+// Of a run of the job that has them.
+template <class JobOptions = Options>
+JobOptions options_of(const Parsed& parsed) {
+  EXPECT_TRUE(parsed.run) << parsed.error;
+  const auto* options = std::get_if<JobOptions>(&parsed.command.options);
+  EXPECT_NE(options, nullptr);
+  return options != nullptr ? *options : JobOptions();
 }
 
 void expect_usage_error(std::vector<std::string> arguments, const std::string& text = "") {
@@ -27,88 +44,133 @@ void expect_usage_error(std::vector<std::string> arguments, const std::string& t
 TEST(Arguments, DefaultsAreTheLibrarys) {
   const Parsed parsed = parse({"in.off", "-o", "out.mesh"});
   ASSERT_TRUE(parsed.run) << parsed.error;
-  const Options defaults;
-  EXPECT_EQ(parsed.command.job, Job::mesh);
+  EXPECT_EQ(parsed.command.job(), Job::mesh);
   EXPECT_EQ(parsed.command.input, "in.off");
   EXPECT_EQ(parsed.command.outputs, std::vector<std::string>({"out.mesh"}));
-  EXPECT_EQ(parsed.command.options.delta, defaults.delta);
-  EXPECT_EQ(parsed.command.options.tau, defaults.tau);
-  EXPECT_EQ(parsed.command.options.acute, defaults.acute);
-  EXPECT_EQ(parsed.command.options.region, Region::interior);
-  EXPECT_TRUE(parsed.command.options.improve);
-  EXPECT_TRUE(parsed.command.options.slivers);
-  EXPECT_TRUE(parsed.command.options.simplify_bridges);
-  EXPECT_FALSE(parsed.command.options.want_exact);
+  EXPECT_FALSE(options_of(parsed).want_exact);
+  const auto expect_defaults = []<class JobOptions>(std::vector<std::string> arguments,
+                                                    const JobOptions& defaults) {
+    const auto given = options::values_of(options_of<JobOptions>(parse(arguments)));
+    const auto expected = options::values_of(defaults);
+    ASSERT_EQ(given.size(), expected.size());
+    for (std::size_t n = 0; n < given.size(); ++n) {
+      EXPECT_EQ(given[n].value, expected[n].value) << arguments[0] << " " << given[n].text.name;
+    }
+  };
+  expect_defaults({"mesh", "i.off", "-o", "o.mesh"}, Options());
+  expect_defaults({"mesh", "i.off", "-o", "o.mesh", "--preset", "paper"}, paper_options());
+  expect_defaults({"cdt", "i.off", "-o", "o.mesh"}, CdtOptions());
+  expect_defaults({"plane", "i.poly", "-o", "o.vtu"}, PlaneOptions());
+  expect_defaults({"plane", "i.poly", "-o", "o.vtu", "--preset", "paper"}, paper_plane_options());
+  expect_defaults({"check", "i.off"}, CheckOptions());
+  expect_defaults({"improve", "i.mesh", "-o", "o.mesh"}, ImproveOptions());
+  expect_defaults({"repair", "i.off", "-o", "o.off"}, RepairOptions());
 }
 
-TEST(Arguments, AllOptions) {
-  const Parsed parsed = parse({"mesh",
-                               "in.off",
-                               "-o",
-                               "a.mesh",
-                               "-o",
-                               "b.vtu",
-                               "--delta",
-                               "12.5",
-                               "--tau",
-                               "0",
-                               "--acute",
-                               "45",
-                               "--slivers",
-                               "off",
-                               "--approximate",
-                               "--chamfer-radius",
-                               "0.25",
-                               "--max-edge",
-                               "3",
-                               "--size-field",
-                               "sizes.pos",
-                               "--size-growth",
-                               "0.2",
-                               "--region",
-                               "hull",
-                               "--max-vertices",
-                               "1000",
-                               "--time-limit",
-                               "2.5",
-                               "--threads",
-                               "3",
-                               "--stats",
-                               "s.json",
-                               "--save-chamfered",
-                               "c.off",
-                               "--exact",
-                               "e.txt",
-                               "--no-bridge-simplification",
-                               "-v"});
-  ASSERT_TRUE(parsed.run) << parsed.error;
-  const Options& o = parsed.command.options;
+// A command with each option of a job alone: an option of the table is read, has the effect of its
+// name, and is refused where it is not of the job.
+struct JobCase {
+  std::vector<std::string> arguments;
+  std::vector<options::Value> values;
+};
+template <class JobOptions>
+JobCase job_case(std::vector<std::string> arguments) {
+  return {std::move(arguments), options::values_of(JobOptions())};
+}
+std::vector<JobCase> job_cases() {
+  return {job_case<Options>({"mesh", "i.off", "-o", "o.mesh"}),
+          job_case<CdtOptions>({"cdt", "i.off", "-o", "o.mesh"}),
+          job_case<PlaneOptions>({"plane", "i.poly", "-o", "o.vtu"}),
+          job_case<CheckOptions>({"check", "i.off"}),
+          job_case<ImproveOptions>({"improve", "i.mesh", "-o", "o.mesh"}),
+          job_case<RepairOptions>({"repair", "i.off", "-o", "o.off"})};
+}
+
+TEST(Arguments, EveryOptionOfTheTableIsReadAlone) {
+  for (const JobCase& job : job_cases()) {
+    for (std::size_t n = 0; n < job.values.size(); ++n) {
+      const options::Value& option = job.values[n];
+      const std::string name(option.text.name);
+      const auto [text, value] = another_value(option);
+      std::vector<std::string> arguments = job.arguments;
+      if (option.is_paper()) {
+        arguments.insert(arguments.end(), {"--as-paper", options::argument_name(name)});
+      } else {
+        arguments.push_back("--" + options::argument_name(name));
+        if (!text.empty()) arguments.push_back(text);
+      }
+      if (name == "size_growth") arguments.insert(arguments.end(), {"--size-field", "s.txt"});
+      const Parsed parsed = parse(arguments);
+      ASSERT_TRUE(parsed.run) << parsed.error;
+      const auto given = std::visit([](const auto& options) { return options::values_of(options); },
+                                    parsed.command.options);
+      ASSERT_EQ(given.size(), job.values.size());
+      for (std::size_t k = 0; k < given.size(); ++k) {
+        EXPECT_EQ(given[k].value, k == n ? value : job.values[k].value)
+            << job.arguments[0] << " --" << name << ": " << given[k].text.name;
+      }
+      if (option.kind == options::Kind::sources) {
+        EXPECT_EQ(parsed.command.sizes_file, text);
+      }
+    }
+  }
+}
+
+TEST(Arguments, OptionsOfOtherJobsAreRefused) {
+  std::size_t refused = 0;
+  for (const JobCase& job : job_cases()) {
+    for (const JobCase& other : job_cases()) {
+      for (const options::Value& option : other.values) {
+        if (option.is_paper()) continue;
+        const bool is_there =
+            std::any_of(job.values.begin(), job.values.end(),
+                        [&](const auto& mine) { return mine.text.name == option.text.name; });
+        if (is_there) continue;
+        std::vector<std::string> arguments = job.arguments;
+        arguments.push_back("--" + options::argument_name(option.text.name));
+        if (const std::string text = another_value(option).first; !text.empty()) {
+          arguments.push_back(text);
+        }
+        expect_usage_error(arguments, "no such option of " + job.arguments[0] + ", but of ");
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 60U);
+}
+
+TEST(Arguments, FilesAndSwitchesOfTheCommandLine) {
+  const Parsed parsed = parse({"in.off", "-o", "a.mesh", "-o", "b.vtu", "--stats", "s.json",
+                               "--save-chamfered", "c.off", "--exact", "e.txt", "-v"});
   EXPECT_EQ(parsed.command.outputs, std::vector<std::string>({"a.mesh", "b.vtu"}));
-  EXPECT_EQ(o.delta, 12.5);
-  EXPECT_EQ(o.tau, 0);
-  EXPECT_EQ(o.acute, 45);
-  EXPECT_FALSE(o.slivers);
-  EXPECT_TRUE(o.approximate);
-  EXPECT_EQ(o.chamfer_radius, 0.25);
-  EXPECT_EQ(o.max_edge, 3);
-  EXPECT_EQ(parsed.command.sizes_file, "sizes.pos");
-  EXPECT_EQ(o.size_growth, 0.2);
-  EXPECT_EQ(o.region, Region::hull);
-  EXPECT_EQ(o.max_vertices, 1000U);
-  EXPECT_EQ(o.time_limit_seconds, 2.5);
-  EXPECT_EQ(o.threads, 3U);
-  EXPECT_FALSE(o.simplify_bridges);
-  EXPECT_TRUE(o.want_exact && o.want_chamfered);
+  EXPECT_EQ(parsed.command.stats_file, "s.json");
+  EXPECT_TRUE(options_of(parsed).want_exact && options_of(parsed).want_chamfered);
   EXPECT_TRUE(parsed.command.verbose);
+}
+
+TEST(Arguments, GivenTwiceOrWithoutEffect) {
+  expect_usage_error({"in.off", "-o", "a.mesh", "--delta", "3", "--delta", "4"},
+                     "'--delta': given twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--delta=3", "--tau", "0", "--delta=3"},
+                     "'--delta': given twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "-q", "--quiet"}, "'--quiet': given twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--gabriel", "--gabriel"}, "given twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--stats", "a", "--stats", "b"}, "given twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--jobs", "4"},
+                     "--jobs: of no effect with one input, see --threads");
+  expect_usage_error({"in.off", "-o", "a.mesh", "-o", "a.node", "--ascii"},
+                     "--ascii: of no effect but on .msh and .vtu");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--size-growth", "0.2"},
+                     "--size-growth: of no effect without --size-field");
+  EXPECT_TRUE(parse({"in.off", "-o", "a.mesh", "-o", "a.VTU", "--ascii"}).run);
+  EXPECT_TRUE(parse({"a.off", "b.off", "-o", "{name}.mesh", "--jobs", "1"}).run);
 }
 
 TEST(Arguments, PlanarIsANumberOrAuto) {
   const auto planar = [](std::vector<std::string> more) {
     std::vector<std::string> all = {"a.off", "-o", "a.mesh", "--planar"};
     all.insert(all.end(), more.begin(), more.end());
-    const Parsed parsed = parse(all);
-    EXPECT_TRUE(parsed.run) << parsed.error;
-    return parsed.command.options.planar;
+    return options_of(parse(all)).planar;
   };
   EXPECT_EQ(planar({"0"}), 0);
   EXPECT_EQ(planar({"1e-4"}), 1e-4);
@@ -119,15 +181,14 @@ TEST(Arguments, PlanarIsANumberOrAuto) {
 }
 
 TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
-  const Options paper = parse({"i.off", "-o", "o.mesh", "--preset", "paper"}).command.options;
+  const Options paper = options_of(parse({"i.off", "-o", "o.mesh", "--preset", "paper"}));
   EXPECT_EQ(paper.threads, 1U);
   EXPECT_EQ(paper.acute, 90);
   EXPECT_EQ(paper.tau, 1e-4);
   EXPECT_EQ(paper.delta, 14.47);
   EXPECT_EQ(paper.region, Region::hull);
-  const Options mixed = parse({"i.off", "-o", "o.mesh", "--tau", "0", "--region", "interior",
-                               "--preset", "paper", "--acute", "70"})
-                            .command.options;
+  const Options mixed = options_of(parse({"i.off", "-o", "o.mesh", "--tau", "0", "--region",
+                                          "interior", "--preset", "paper", "--acute", "70"}));
   EXPECT_EQ(mixed.acute, 70);
   EXPECT_EQ(mixed.tau, 0);
   EXPECT_EQ(mixed.delta, 14.47);
@@ -137,14 +198,9 @@ TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
 TEST(Arguments, WhatIsDoneAsThePaperSays) {
   const auto choices = [](std::vector<std::string> more) {
     more.insert(more.begin(), {"i.off", "-o", "o.mesh"});
-    return parse(more).command.options.as_paper;
+    return options_of(parse(more)).as_paper;
   };
-  AsPaper all;
-  for (const NamedChoice& choice : kPaperChoices) {
-    AsPaper alone;
-    alone.*choice.member = all.*choice.member = true;
-    EXPECT_EQ(choices({"--as-paper", choice.name}), alone) << choice.name;
-  }
+  const AsPaper all = paper_options().as_paper;
   EXPECT_EQ(choices({}), AsPaper{});
   EXPECT_EQ(choices({"--as-paper", "steiner-point,order"}),
             (AsPaper{.order = true, .steiner_point = true}));
@@ -161,26 +217,16 @@ TEST(Arguments, WhatIsDoneAsThePaperSays) {
 TEST(Arguments, OtherJobs) {
   const Parsed cdt = parse({"cdt", "in.off", "-o", "out.tet"});
   EXPECT_TRUE(cdt.run);
-  EXPECT_EQ(cdt.command.job, Job::cdt);
-  EXPECT_EQ(cdt.command.options.region, Region::hull);
-  EXPECT_EQ(parse({"cdt", "i.off", "-o", "o.tet", "--region", "interior"}).command.options.region,
-            Region::interior);
+  EXPECT_EQ(cdt.command.job(), Job::cdt);
+  EXPECT_EQ(options_of<CdtOptions>(cdt).region, Region::hull);
   const Parsed check = parse({"check", "in.off", "--json", "--acute", "90"});
   EXPECT_TRUE(check.run);
   EXPECT_TRUE(check.command.json);
-  EXPECT_EQ(check.command.options.acute, 90);
+  EXPECT_EQ(options_of<CheckOptions>(check).acute, 90);
   const Parsed plane = parse({"plane", "in.poly", "-o", "out.svg", "--preset", "paper"});
   EXPECT_TRUE(plane.run);
-  EXPECT_EQ(plane.command.job, Job::plane);
-  EXPECT_EQ(plane.command.options.delta, plane_options().delta);
-  EXPECT_EQ(plane.command.options.acute, 90);
-  EXPECT_EQ(plane.command.options.region, Region::hull);
-  EXPECT_EQ(plane.command.options.as_paper, AsPaper{.steiner_point = true});
-  const Options by_default = parse({"plane", "i.off", "-o", "o.node"}).command.options;
-  EXPECT_EQ(by_default.acute, 60);
-  EXPECT_EQ(by_default.as_paper, AsPaper{});
-  EXPECT_TRUE(parse({"plane", "i.off", "-o", "o.node", "--as-paper", "steiner-point"})
-                  .command.options.as_paper.steiner_point);
+  EXPECT_EQ(plane.command.job(), Job::plane);
+  EXPECT_EQ(options_of<PlaneOptions>(plane).as_paper, PlaneAsPaper{.steiner_point = true});
   expect_usage_error({"plane", "i.off", "-o", "o.node", "--as-paper", "order"}, "order");
   expect_usage_error({"plane", "in.poly", "-o", "out.mesh"},
                      "out.mesh: unknown mesh format (.node, .vtu, .off, .msh or .svg)");
@@ -193,11 +239,9 @@ TEST(Arguments, OfImprove) {
   const Parsed parsed = parse({"improve", "in.msh", "-o", "a.mesh", "-o", "b.vtu", "--delta", "10",
                                "--max-edge", "2", "--max-vertices", "9", "--time-limit", "3"});
   ASSERT_TRUE(parsed.run) << parsed.error;
-  EXPECT_EQ(parsed.command.job, Job::improve);
+  EXPECT_EQ(parsed.command.job(), Job::improve);
   EXPECT_EQ(parsed.command.outputs, std::vector<std::string>({"a.mesh", "b.vtu"}));
-  EXPECT_EQ(parsed.command.options.delta, 10);
-  EXPECT_EQ(parsed.command.options.max_edge, 2);
-  EXPECT_EQ(parsed.command.options.max_vertices, 9U);
+  EXPECT_EQ(options_of<ImproveOptions>(parsed).max_vertices, 9U);
   EXPECT_TRUE(parse({"improve", "in.node", "-o", "a.node"}).run);
   expect_usage_error({"improve", "in.mesh"}, "--output");
   expect_usage_error({"improve", "in.mesh", "-o", "in.mesh"}, "same as the input");
@@ -249,7 +293,8 @@ TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
   expect_usage_error({"in.off", "-o", "a.mesh", "--tau", "2"},
                      "out of range: 2 (at least 0, at most 1)");
   expect_usage_error({"in.off", "-o", "a.mesh", "--max-edge", "0"}, "out of range: 0 (above 0)");
-  expect_usage_error({"in.off", "-o", "a.mesh", "--size-growth", "2"}, "out of range: 2");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--size-growth", "2", "--size-field", "s"},
+                     "out of range: 2");
   expect_usage_error({"in.off", "-o", "a.mesh", "--size-field", "a.mesh"}, "a.mesh: named twice");
 }
 
@@ -269,12 +314,72 @@ TEST(Arguments, HelpFitsAScreen) {
   }
 }
 
+// Words with one space between them.
+std::string unfolded(const std::string& text) {
+  std::istringstream in(text);
+  std::string out;
+  for (std::string word; in >> word;) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
 TEST(Arguments, HelpSaysTheRanges) {
-  const std::string help = parse({"mesh", "--help"}).out;
-  EXPECT_NE(help.find("(14.47; above 0, at most"), std::string::npos) << help;
+  const std::string help = unfolded(parse({"mesh", "--help"}).out);
+  EXPECT_NE(help.find("degrees (14.47; above 0, at most 30)"), std::string::npos) << help;
   EXPECT_NE(help.find("--threads N"), std::string::npos) << help;
   EXPECT_NE(help.find("-o, --output FILE"), std::string::npos) << help;
   EXPECT_EQ(help.find("4294967294"), std::string::npos) << help;  // a limit that is out of reach
+}
+
+// docs/options.md, from the help of the commands and from the table.
+std::string options_page() {
+  std::string page =
+      "# Options of delmesher\n\n"
+      "Written by `TETPROOF_WRITE_DOCS=1` and the test `Arguments.OptionsPageIsUpToDate` from the "
+      "help of the commands; edit\n`mesher/delmesher/option_table.h` instead. Lengths are in the "
+      "units of the input. In parentheses stand the default and the\nvalues that are accepted. C "
+      "and Python have the same names, with `_` for `-`, and the choices of `--as-paper` as\n"
+      "`paper_NAME`, with `_` for `-`, too.\n";
+  for (const JobCase& job : job_cases()) {
+    page += "\n## `" + job.arguments[0] + "`\n\n| option | meaning |\n|---|---|\n";
+    std::istringstream lines(parse({job.arguments[0], "--help"}).out);
+    std::string row;
+    const auto end_row = [&] {
+      for (auto at = row.find('|'); at != std::string::npos; at = row.find('|', at + 2)) {
+        row.insert(at, "\\");
+      }
+      const auto gap = row.find("  ");
+      if (!row.empty()) {
+        page += "| `" + row.substr(0, gap) + "` | " + unfolded(row.substr(gap)) + " |\n";
+      }
+      row.clear();
+    };
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("  -h, ")) continue;
+      if (line.starts_with("  -")) {
+        end_row();
+        row = line.substr(2) + "  ";
+      } else if (!row.empty() && line.starts_with("   ")) {
+        row += line;
+      } else {
+        end_row();
+      }
+    }
+  }
+  page += "\n## Choices of `--as-paper`\n\n| choice | meaning |\n|---|---|\n";
+  for (const options::Value& option : options::values_of(Options())) {
+    if (!option.is_paper()) continue;
+    page += "| `" + options::argument_name(option.text.name) + "` | " +
+            std::string(option.text.help) + " |\n";
+  }
+  return page;
+}
+
+TEST(Arguments, OptionsPageIsUpToDate) {
+  const std::string path = DELMESHER_DOCS "/options.md";
+  if (std::getenv("TETPROOF_WRITE_DOCS") != nullptr) std::ofstream(path) << options_page();
+  std::ifstream file(path);
+  const std::string written((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(written, options_page());
 }
 
 TEST(Arguments, SeveralInputs) {
@@ -296,9 +401,10 @@ TEST(Arguments, SeveralInputs) {
   EXPECT_EQ(parse({"a.gz", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
   expect_usage_error({"a.stl", "b.stl", "-o", "one.msh"}, "one.msh: named twice");
   expect_usage_error({"a.stl", "b.stl", "-o", "one.msh"}, "as in -o out/{name}.msh");
-  expect_usage_error({"a.stl", "-o", "a.msh", "--jobs", "1.5"}, "not a whole number: 1.5");
+  expect_usage_error({"a.stl", "b.stl", "-o", "{name}.msh", "--jobs", "1.5"},
+                     "not a whole number: 1.5");
   expect_usage_error({"a.stl", "-o", "a.msh", "--max-vertices", "9.5"}, "not a whole number: 9.5");
-  EXPECT_EQ(parse({"a.stl", "-o", "a.msh", "--max-vertices", "1e6"}).command.options.max_vertices,
+  EXPECT_EQ(options_of(parse({"a.stl", "-o", "a.msh", "--max-vertices", "1e6"})).max_vertices,
             1000000U);
   expect_usage_error({"a.stl", "x/a.obj", "-o", "{name}.msh"}, "a.msh: named twice");
   expect_usage_error({"a.stl", "b.stl", "-o", "-.msh"}, "standard output");

@@ -81,7 +81,8 @@ std::string result_text(const Result& result) {
 
 int ImproveRunner::improve() {
   Result result =
-      call([&](const Options& options) { return library_.improve_mesh(mesh_, options); });
+      call(std::get<ImproveOptions>(command_.options),
+           [&](const ImproveOptions& options) { return library_.improve_mesh(mesh_, options); });
   note_interruption(result.status);
   const Statistics& s = result.statistics;
   return finish({result.status, result.warnings,

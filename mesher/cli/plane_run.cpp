@@ -52,8 +52,9 @@ io::WriteStatus PlaneRunner::write_all(io::OutputSet& outputs, const PlaneResult
 }
 
 int PlaneRunner::mesh() {
-  PlaneResult result =
-      call([&](const Options& options) { return library_.triangulate_polygon(graph_, options); });
+  PlaneResult result = call(
+      std::get<PlaneOptions>(command_.options),
+      [&](const PlaneOptions& options) { return library_.triangulate_polygon(graph_, options); });
   note_interruption(result.status);
   const PlaneStatistics& s = result.statistics;
   return finish({result.status, result.warnings,

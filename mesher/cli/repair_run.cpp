@@ -22,6 +22,7 @@ class RepairRunner : RunSteps {
   int write();
   int judge();
 
+  const RepairOptions& options_ = std::get<RepairOptions>(command_.options);
   Surface surface_;
   io::LabelNames names_;
 };
@@ -34,7 +35,7 @@ int RepairRunner::read() {
   names_ = std::move(input.names);
   note_input(input.format, input.surface.vertices.size(), input.surface.triangles.size(),
              "triangles");
-  RepairResult mended = repair_surface(input.surface, command_.repair);
+  RepairResult mended = repair_surface(input.surface, options_);
   for (const std::string& line : mended.done) say(command_.input + ": " + line);
   if (mended.done.empty()) say(command_.input + ": nothing to mend");
   surface_ = std::move(mended.surface);
@@ -55,8 +56,7 @@ int RepairRunner::write() {
 }
 
 int RepairRunner::judge() {
-  const SurfaceReport report =
-      call([&](const Options& options) { return library_.check_surface(surface_, options); });
+  const SurfaceReport report = check_surface(surface_);
   if (report.status.code == StatusCode::ok) {
     say(command_.outputs.front() + ": a valid surface");
     return kDone;
@@ -64,8 +64,8 @@ int RepairRunner::judge() {
   if (report.status.code != StatusCode::invalid_surface) {
     return fail_input(exit_code_of(report.status.code), report.status.message);
   }
-  const std::uint64_t open = holes_of(surface_).open_edges;
-  const bool fills = open > 0 && !command_.repair.fill;
+  const std::uint64_t open = surface::holes_of(surface_).open_edges;
+  const bool fills = open > 0 && !options_.fill;
   std::string left = defects_line(report) + " left";
   for (const Contact& contact : contacts(surface_, report)) {
     left += ": " + contact.what + ": " + contact.advice;

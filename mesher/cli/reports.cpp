@@ -7,8 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <variant>
 
 #include "mesher/cli/defects.h"
+#include "mesher/delmesher/option_table.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::cli {
@@ -57,38 +59,32 @@ Json mesh_json(const PlaneMeshStatistics& s) {
           {"angle_histogram", s.angle_histogram}};
 }
 
-Json as_paper_json(const AsPaper& choices) {
-  Json names = Json::array();
-  for (const NamedChoice& choice : kPaperChoices) {
-    if (choices.*choice.member) names.push_back(choice.name);
+Json value_json(const options::Value& option) {
+  for (const options::Word& word : option.text.words) {
+    if (!word.word.empty() && word.value == option.value) return word.word;
   }
-  return names;
+  if (option.kind == options::Kind::on_off) return option.value != 0;
+  if (option.kind == options::Kind::count) return static_cast<std::uint64_t>(option.value);
+  return option.value;
 }
 
 Json parameters_json(const Command& command) {
   static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check", "improve", "repair"};
-  const Options& o = command.options;
-  return {{"job", kJobs[static_cast<std::size_t>(command.job)]},
-          {"delta", o.delta},
-          {"tau", o.tau},
-          {"planar", o.planar == kPlanarAuto ? Json("auto") : Json(o.planar)},
-          {"budget", o.budget},
-          {"acute", o.acute},
-          {"corner", o.corner},
-          {"gabriel", o.gabriel},
-          {"improve", o.improve},
-          {"slivers", o.slivers},
-          {"as_paper", as_paper_json(o.as_paper)},
-          {"approximate", o.approximate},
-          {"bridge_simplification", o.simplify_bridges},
-          {"chamfer_radius", o.chamfer_radius},
-          {"max_edge", o.max_edge},
-          {"size_field", command.sizes_file},
-          {"size_growth", o.size_growth},
-          {"region", o.region == Region::hull ? "hull" : "interior"},
-          {"max_vertices", o.max_vertices},
-          {"time_limit", o.time_limit_seconds},
-          {"threads", o.threads}};
+  Json parameters = {{"job", kJobs[static_cast<std::size_t>(command.job())]}};
+  const auto values =
+      std::visit([](const auto& job) { return options::values_of(job); }, command.options);
+  for (const options::Value& option : values) {
+    const std::string name(option.text.name);
+    if (option.is_paper()) {
+      Json& choices = parameters["as_paper"];
+      if (choices.is_null()) choices = Json::array();
+      if (option.value != 0) choices.push_back(options::argument_name(name));
+    } else {
+      parameters[name] =
+          option.kind == options::Kind::sources ? Json(command.sizes_file) : value_json(option);
+    }
+  }
+  return parameters;
 }
 
 // The first entries of the statistics of every job.
@@ -211,11 +207,6 @@ std::string improve_stats_json(const Command& command, const Result& result,
                                const RunFacts& facts) {
   const Statistics& s = result.statistics;
   Json json = run_json(command, result, facts, "tetrahedra");
-  for (const char* key :
-       {"tau", "planar", "budget", "acute", "corner", "gabriel", "improve", "slivers", "as_paper",
-        "approximate", "bridge_simplification", "chamfer_radius", "region"}) {
-    json["parameters"].erase(key);
-  }
   json["given"] = mesh_json(s.refined);
   json["final"] = mesh_json(s.final);
   json["flat"] = s.rounding_flat;
@@ -226,16 +217,13 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts) {
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
-  for (const char* key : {"planar", "budget", "corner", "gabriel", "improve", "slivers",
-                          "bridge_simplification", "threads"}) {
-    json["parameters"].erase(key);
-  }
   json["refined"] = mesh_json(s.refined);
   json["final"] = mesh_json(s.final);
   json["filter"] = {{"dropped_segments", s.dropped_segments}, {"rounds", s.filter_rounds}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices},
                      {"chamfered_segments", s.chamfered_segments}};
-  json["guarantee"] = {{"acute", command.options.acute}, {"delta", s.guaranteed_delta}};
+  json["guarantee"] = {{"acute", std::get<PlaneOptions>(command.options).acute},
+                       {"delta", s.guaranteed_delta}};
   json["steiner"] = {{"on_segments", s.steiner_on_segments}, {"in_faces", s.steiner_in_faces}};
   json["rounding"] = rounding_json(s);
   json["rounding"]["max_segment_deviation"] = s.max_segment_deviation;

@@ -48,8 +48,7 @@ int Runner::read() {
 }
 
 int Runner::check() {
-  const SurfaceReport report =
-      call([&](const Options& options) { return library_.check_surface(surface_, options); });
+  const SurfaceReport report = check_surface(surface_);
   const StatusCode code = report.status.code;
   if (code == StatusCode::ok || code == StatusCode::invalid_surface) {
     streams_.out(command_.json ? check_json(command_.input, surface_, report)
@@ -80,8 +79,7 @@ int Runner::write_defects(const SurfaceReport& report) const {
 // Counts the defects by kind; the library stops at the first.
 void Runner::count_defects(Status& status) const {
   if (status.code != StatusCode::invalid_surface || !library_.check_surface) return;
-  const SurfaceReport report =
-      call([&](const Options& options) { return library_.check_surface(surface_, options); });
+  const SurfaceReport report = check_surface(surface_);
   const std::string line = defects_line(report);
   if (report.status.code != StatusCode::invalid_surface || line.empty()) return;
   status.message += " (in all " + line;
@@ -105,19 +103,22 @@ io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) 
 }
 
 int Runner::mesh() {
-  Result result = call([&](const Options& options) {
-    return command_.job == Job::cdt ? library_.constrained_delaunay(surface_, options)
-                                    : library_.tetrahedralize(surface_, options);
-  });
+  const auto* options = std::get_if<Options>(&command_.options);  // else those of cdt
+  Result result =
+      options != nullptr
+          ? call(*options, [&](const Options& o) { return library_.tetrahedralize(surface_, o); })
+          : call(std::get<CdtOptions>(command_.options),
+                 [&](const CdtOptions& o) { return library_.constrained_delaunay(surface_, o); });
   note_interruption(result.status);
   count_defects(result.status);
   const Statistics& s = result.statistics;
-  if (s.planar_groups > 0)
-    remark(planar_text(command_.input, s, command_.options.planar == 0 || s.diagonals > 0));
+  if (options != nullptr && s.planar_groups > 0) {
+    remark(planar_text(command_.input, s, options->planar == 0 || s.diagonals > 0));
+  }
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles.
-  if (result.status.ok() && command_.job == Job::mesh) {
-    for (std::string& warning : quality_warnings(result, command_.options.delta)) {
+  if (result.status.ok() && options != nullptr) {
+    for (std::string& warning : quality_warnings(result, options->delta)) {
       result.warnings.push_back(std::move(warning));
     }
   }
@@ -134,13 +135,13 @@ int Runner::mesh() {
 
 int Runner::run() {
   try {
-    if (command_.job == Job::plane) return run_plane(command_, library_, streams_);
-    if (command_.job == Job::repair) return run_repair(command_, library_, streams_);
-    if (command_.job == Job::improve) return run_improve(command_, library_, streams_);
+    if (command_.job() == Job::plane) return run_plane(command_, library_, streams_);
+    if (command_.job() == Job::repair) return run_repair(command_, library_, streams_);
+    if (command_.job() == Job::improve) return run_improve(command_, library_, streams_);
     int code = check_outputs(io::mesh_files_of);
     if (code == kDone) code = read();
     if (code != kDone) return code;
-    return command_.job == Job::check ? check() : mesh();
+    return command_.job() == Job::check ? check() : mesh();
   } catch (const std::bad_alloc&) {
     return fail_input(kLimit, "out of memory");
   } catch (const std::exception& error) {

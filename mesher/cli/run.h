@@ -12,10 +12,10 @@ namespace delmesher::cli {
 // The functions of the library. Tests put others in their place.
 struct Library {
   std::function<Result(const Surface&, const Options&)> tetrahedralize;
-  std::function<Result(const Surface&, const Options&)> constrained_delaunay;
-  std::function<SurfaceReport(const Surface&, const Options&)> check_surface;
-  std::function<PlaneResult(const PlanarGraph&, const Options&)> triangulate_polygon = nullptr;
-  std::function<Result(const TetMesh&, const Options&)> improve_mesh = nullptr;
+  std::function<Result(const Surface&, const CdtOptions&)> constrained_delaunay;
+  std::function<SurfaceReport(const Surface&, const CheckOptions&)> check_surface;
+  std::function<PlaneResult(const PlanarGraph&, const PlaneOptions&)> triangulate_polygon = nullptr;
+  std::function<Result(const TetMesh&, const ImproveOptions&)> improve_mesh = nullptr;
 };
 
 struct Streams {

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <set>
+#include <type_traits>
+#include <variant>
+
+#include "mesher/delmesher/option_table.h"
 
 namespace delmesher::cli {
 namespace {
@@ -53,9 +57,8 @@ int RunSteps::check_outputs(std::vector<std::string> (*files_of)(const std::stri
   for (const std::string& output : command_.outputs) {
     for (const std::string& file : files_of(output)) files.push_back(file);
   }
-  for (const std::string* file : {&command_.stats_file, &command_.chamfered_file,
-                                  &command_.exact_file, &command_.defects_file}) {
-    if (!file->empty()) files.push_back(*file);
+  for (const auto file : kWrittenBeside) {
+    if (!(command_.*file).empty()) files.push_back(command_.*file);
   }
   for (const std::string& file : files) {
     const io::WriteStatus status = io::check_writable(file, io::MissingFolder::is_made);
@@ -65,10 +68,13 @@ int RunSteps::check_outputs(std::vector<std::string> (*files_of)(const std::stri
 }
 
 std::function<bool()> RunSteps::goes_on() const {
-  return [this] {
-    const double limit = command_.options.time_limit_seconds;
-    return !interrupted() && (limit <= 0 || seconds() <= limit);
-  };
+  const double limit = std::visit(
+      []<class T>(const T& options) {
+        if constexpr (std::is_base_of_v<TimeLimit, T>) return options.time_limit_seconds;
+        return 0.0;
+      },
+      command_.options);
+  return [this, limit] { return !interrupted() && (limit <= 0 || seconds() <= limit); };
 }
 
 int RunSteps::read_beside(io::LabelNames& names, const std::vector<std::int32_t>& labels) {
@@ -115,16 +121,20 @@ void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std
        std::to_string(cells) + " " + cell_name);
 }
 
-Options RunSteps::options_with_progress(ProgressLine& line) const {
-  Options options = command_.options;
-  options.size_field = sizes_;
+SurfaceReport RunSteps::check_surface(const Surface& surface) const {
+  const auto check = std::visit(
+      [](const auto& job) { return options::taken_from<CheckOptions>(job); }, command_.options);
+  return call(
+      check, [&](const CheckOptions& options) { return library_.check_surface(surface, options); });
+}
+
+void RunSteps::watch(TimeLimit& options, ProgressLine& line) const {
   double& limit = options.time_limit_seconds;
   if (limit > 0) limit = std::max(limit - seconds(), 1e-9);  // 0 would be none
   options.progress = [&line](const Progress& progress) {
     line.show(progress);
     return !interrupted();
   };
-  return options;
 }
 
 io::WriteStatus RunSteps::put_in_place(const Outcome& outcome) {

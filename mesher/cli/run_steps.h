@@ -46,13 +46,18 @@ class RunSteps {
   void note_input(const std::string& format, std::uint64_t vertices, std::uint64_t cells,
                   const char* cell_name);
 
-  // Calls the library with the options, progress on a terminal, and signals that ask it to stop.
-  template <class Call>
-  auto call(Call&& library_call) const {
+  // Calls the library, `library_call(options)`, with the sizes that were read, the time that is
+  // left, progress on a terminal, and signals that ask it to stop.
+  template <class AnyOptions, class Call>
+  auto call(AnyOptions options, Call&& library_call) const {
     ProgressLine line(stderr, streams_.terminal && !command_.quiet, streams_.escapes);
+    if constexpr (requires { options.size_field; }) options.size_field = sizes_;
+    watch(options, line);
     const Deferring deferring;
-    return library_call(options_with_progress(line));
+    return library_call(options);
   }
+  // What check_surface() says of the surface, with those options that it shares with the job.
+  SurfaceReport check_surface(const Surface& surface) const;
 
   // From a result to the exit code: warnings, files (by `write`, whose outputs are then put in
   // place all at once), statistics (`json`, written however the run ended, because campaigns want
@@ -84,7 +89,7 @@ class RunSteps {
 
  private:
   using Clock = std::chrono::steady_clock;
-  Options options_with_progress(ProgressLine& line) const;
+  void watch(TimeLimit& options, ProgressLine& line) const;
   io::WriteStatus put_in_place(const Outcome& outcome);
   io::WriteStatus write_stats(const Outcome& outcome);
   double seconds() const;  // since the start

@@ -38,8 +38,10 @@ class RunTest : public testing::Test {
       if (options.progress) options.progress({Phase::refine, 0.5, 10});
       return answer_;
     };
-    library_.constrained_delaunay = library_.tetrahedralize;
-    library_.check_surface = [this](const Surface&, const Options&) { return report_; };
+    library_.constrained_delaunay = [this](const Surface& surface, const CdtOptions&) {
+      return library_.tetrahedralize(surface, {});
+    };
+    library_.check_surface = [this](const Surface&, const CheckOptions&) { return report_; };
     streams_.out = [this](const std::string& text) { out_ += text; };
     streams_.error = [this](const std::string& text) { error_ += text; };
   }

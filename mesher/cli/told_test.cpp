@@ -200,7 +200,7 @@ TEST_F(Told, WarnsOfSmallAnglesAndSaysWhetherTheInputForcesThem) {
 TEST_F(Told, ImproveSaysWhatThereWasBefore) {
   std::ofstream(path("in.tet")) << "4 vertices\n1 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 3\n";
   TetMesh given;
-  library_.improve_mesh = [&](const TetMesh& mesh, const Options&) {
+  library_.improve_mesh = [&](const TetMesh& mesh, const ImproveOptions&) {
     given = mesh;
     return answer_;
   };
@@ -283,7 +283,7 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
 
 TEST_F(Told, StatsOfThePlaneHaveExactlyTheDocumentedKeys) {
   std::ofstream(path("in.txt")) << "0 0\n1 0\n0 1\n0 0\n";
-  library_.triangulate_polygon = [](const PlanarGraph&, const Options&) {
+  library_.triangulate_polygon = [](const PlanarGraph&, const PlaneOptions&) {
     PlaneResult result;
     result.mesh.vertices = {{0, 0}, {1, 0}, {0, 1}};
     result.mesh.triangles = {{0, 1, 2}};
@@ -301,8 +301,8 @@ TEST_F(Told, StatsOfThePlaneHaveExactlyTheDocumentedKeys) {
             "refined final filter chamfer guarantee steiner rounding ");
   EXPECT_EQ(keys(json["input"]), "file vertices segments bbox_diagonal ");
   EXPECT_EQ(keys(json["parameters"]),
-            "job delta tau acute as_paper approximate chamfer_radius max_edge size_field "
-            "size_growth region max_vertices time_limit ");
+            "job delta tau acute approximate chamfer_radius max_edge region max_vertices "
+            "time_limit as_paper ");
   for (const char* mesh : {"refined", "final"}) {
     EXPECT_EQ(keys(json[mesh]),
               "vertices triangles interior_triangles edges min_angle max_angle mean_min_angle "

@@ -40,19 +40,11 @@ struct AsPaper {
   bool operator==(const AsPaper&) const = default;
 };
 
-// A choice by the name that the command line and the statistics have for it.
-struct NamedChoice {
-  const char* name;
-  bool AsPaper::*member;
+// Of these, the one that there is in the plane.
+struct PlaneAsPaper {
+  bool steiner_point = false;  // section 3: triangles are split at their circumcentre
+
+  bool operator==(const PlaneAsPaper&) const = default;
 };
-inline constexpr NamedChoice kPaperChoices[] = {{"link", &AsPaper::link},
-                                                {"bridges", &AsPaper::bridges},
-                                                {"order", &AsPaper::order},
-                                                {"steiner-point", &AsPaper::steiner_point},
-                                                {"kept-points", &AsPaper::kept_points},
-                                                {"enrichment", &AsPaper::enrichment},
-                                                {"filter-pairs", &AsPaper::filter_pairs},
-                                                {"filter-chamfered", &AsPaper::filter_chamfered},
-                                                {"no-guard", &AsPaper::no_guard}};
 
 }  // namespace delmesher

@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "options.h"
 #include "surface.h"
 
 namespace delmesher {
-
-struct RepairOptions {
-  // Vertices no farther apart than this become one, the first of them (input units). Equal ones do
-  // in any case.
-  double weld = 0;
-  // Fill the holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
-  bool fill = false;
-};
 
 struct RepairResult {
   Surface surface;

@@ -42,15 +42,20 @@ struct Progress {
   double predicted_tetrahedra = 0;  // of the final mesh, known before refinement begins; 0: not yet
 };
 
-// Limits and callbacks of every call. Beyond a limit it ends with StatusCode::limit_reached.
-struct Limits {
+// How long a call may take, and who watches it. Beyond a limit it ends with
+// StatusCode::limit_reached.
+struct TimeLimit {
+  double time_limit_seconds = 0;  // 0: no limit
+  // Called several times a second from the calling thread; false, or any exception, cancels it.
+  std::function<bool(const Progress&)> progress;
+};
+
+// The same, with vertices and threads.
+struct Limits : TimeLimit {
   std::uint64_t max_vertices = 0;  // 0: no limit
-  double time_limit_seconds = 0;   // 0: no limit
   // Threads that share the work of checks, filter, classification of the refined mesh and
   // statistics. The result is the same for every number. 0: as many as the machine has cores.
   unsigned threads = 1;
-  // Called several times a second from the calling thread; false, or any exception, cancels it.
-  std::function<bool(const Progress&)> progress;
 };
 
 enum class StatusCode : std::uint8_t {

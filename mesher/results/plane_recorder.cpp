@@ -32,7 +32,7 @@ void Recorder::chamfered(const Chamfered& chamfered) {
 
 void Recorder::refined(const InputGraph& graph, const Chamfered& chamfered, const Spared& spared,
                        const RefinedMesh& refined) {
-  const Options& options = session_.options;
+  const PlaneOptions& options = session_.options;
   std::vector<std::uint32_t> dropped = dropped_segments(graph, spared);
   PlaneStatistics& s = result_.statistics;
   s.guaranteed_delta = refined.delta;

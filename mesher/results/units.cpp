@@ -4,6 +4,8 @@
 #include <cmath>
 #include <new>
 
+#include "mesher/delmesher/option_table.h"
+
 namespace delmesher::results {
 namespace {
 
@@ -58,9 +60,9 @@ int unit_exponent(const std::vector<Point>& vertices) {
 
 // For models of extreme size whose numbers do not fit into other units. Where the stages steer by
 // lengths that over- or underflow, nothing is wrong but that.
-template <class Model, class Run>
-Result in_given_units(const Model& model, const Options& options, const Run& run) {
-  Result result = run(model, options, 0);
+template <class Model, class JobOptions, class Run>
+Result in_given_units(const Model& model, const JobOptions& given, const Run& run) {
+  Result result = run(model, given, 0);
   if (result.status.code == StatusCode::internal_error) {
     result.status = {StatusCode::limit_reached,
                      "the model is too large or too small for double precision, and some "
@@ -78,26 +80,21 @@ bool names_places(const Result& result) {
 }
 
 // `run` is told the exponent of its units.
-template <class Model, class Run>
-Result scaled_and_back(const Model& model, const Options& options, const Run& run) {
+template <class Model, class JobOptions, class Run>
+Result scaled_and_back(const Model& model, const JobOptions& given, const Run& run) {
   const int exponent = unit_exponent(model.vertices);
-  if (exponent == 0) return run(model, options, 0);
+  if (exponent == 0) return run(model, given, 0);
   if (exponent < kSmallest || !is_exact(model.vertices, -exponent)) {
-    return in_given_units(model, options, run);
+    return in_given_units(model, given, run);
   }
   Model scaled = model;
   for (Point& p : scaled.vertices) scale(p, -exponent);
-  Options units = options;
-  units.max_edge = std::ldexp(options.max_edge, -exponent);
-  units.chamfer_radius = std::ldexp(options.chamfer_radius, -exponent);
-  for (SizeSource& source : units.size_field) {
-    scale(source.point, -exponent);
-    source.size = std::ldexp(source.size, -exponent);
-  }
+  JobOptions units = given;
+  options::scale_lengths(units, -exponent);
   Result result = run(scaled, units, exponent);
   // Points that become subnormal are not exact.
   if (names_places(result) || !is_exact(result.mesh.vertices, exponent)) {
-    return in_given_units(model, options, run);
+    return in_given_units(model, given, run);
   }
   for (Point& p : result.mesh.vertices) scale(p, exponent);
   for (Point& p : result.chamfered.vertices) scale(p, exponent);
@@ -185,10 +182,11 @@ Result in_ordinary_units(const Surface& surface, const Options& options, Task& t
   return guarded_run([&] { return moved_and_back(surface, options, task); });
 }
 
-Result in_ordinary_units(const TetMesh& mesh, const Options& options, MeshTask& task) {
+Result in_ordinary_units(const TetMesh& mesh, const ImproveOptions& options, MeshTask& task) {
   return guarded_run([&] {
-    return scaled_and_back(mesh, options,
-                           [&task](const TetMesh& m, const Options& o, int) { return task(m, o); });
+    return scaled_and_back(mesh, options, [&task](const TetMesh& m, const ImproveOptions& o, int) {
+      return task(m, o);
+    });
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mesher/delmesher/option_table.h"
 #include "mesher/delmesher_plane.h"
 
 namespace delmesher::run {
@@ -15,10 +16,12 @@ std::string text(double bound) {
   return digits;
 }
 
-std::string defect(const char* option, const Bounds& bounds, const char* unit = "") {
-  const std::string name = option, low = text(bounds.low);
-  if (bounds.high == kNoBound) {
-    return name + (bounds.above_low ? " must be above " + low : " must be at least " + low) + unit;
+std::string range_defect(const options::Text& option) {
+  const options::Bounds& bounds = option.bounds;
+  const char* unit = option.unit == options::Unit::degrees ? " degrees" : "";
+  const std::string name(option.name), low = text(bounds.low);
+  if (bounds.high == options::kNoBound) {
+    return name + (bounds.above_low ? " must be above " : " must be at least ") + low + unit;
   }
   return name +
          (bounds.above_low ? " must be above " + low + " and at most "
@@ -26,32 +29,18 @@ std::string defect(const char* option, const Bounds& bounds, const char* unit = 
          text(bounds.high) + unit;
 }
 
-}  // namespace
+template <class T>
+std::string value_defect(const options::Text& option, const T& value) {
+  const auto number = static_cast<double>(value);
+  const bool is_word = std::any_of(
+      option.words.begin(), option.words.end(),
+      [&](const options::Word& word) { return !word.word.empty() && word.value == number; });
+  return is_word || option.bounds.allow(number) ? "" : range_defect(option);
+}
 
-std::string options_defect(const Options& o, const OptionBounds& bounds) {
-  constexpr const char* kDegrees = " degrees";
-  const struct {
-    const char* name;
-    double value;
-    const Bounds& bounds;
-    const char* unit = "";
-  } all[] = {{"delta", o.delta, bounds.delta, kDegrees},
-             {"tau", o.tau, bounds.tau},
-             {"planar", o.planar == kPlanarAuto ? 0 : o.planar, bounds.planar},
-             {"acute", o.acute, bounds.acute, kDegrees},
-             {"corner", o.corner, bounds.corner, kDegrees},
-             {"chamfer radius", o.chamfer_radius, bounds.length},
-             {"max edge", o.max_edge, bounds.length},
-             {"size growth", o.size_growth, bounds.growth},
-             {"budget", static_cast<double>(o.budget), bounds.budget},
-             {"time limit", o.time_limit_seconds, bounds.seconds},
-             {"max vertices", static_cast<double>(o.max_vertices), bounds.max_vertices},
-             {"threads", static_cast<double>(o.threads), bounds.threads}};
-  for (const auto& option : all) {
-    if (!option.bounds.allow(option.value)) return defect(option.name, option.bounds, option.unit);
-  }
-  for (std::size_t n = 0; n < o.size_field.size(); ++n) {
-    const auto& [point, size] = o.size_field[n];
+std::string value_defect(const options::Text& /*option*/, const std::vector<SizeSource>& field) {
+  for (std::size_t n = 0; n < field.size(); ++n) {
+    const auto& [point, size] = field[n];
     const bool finite =
         std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); });
     if (!finite || !std::isfinite(size) || !(size > 0)) {
@@ -62,34 +51,56 @@ std::string options_defect(const Options& o, const OptionBounds& bounds) {
   return {};
 }
 
+}  // namespace
+
+template <class JobOptions>
+std::string options_defect(const JobOptions& given) {
+  std::string defect;
+  options::for_each(given, [&](const options::Text& option, const auto& value) {
+    if (defect.empty()) defect = value_defect(option, value);
+  });
+  return defect;
+}
+
+template std::string options_defect(const Options&);
+template std::string options_defect(const CdtOptions&);
+template std::string options_defect(const ImproveOptions&);
+template std::string options_defect(const PlaneOptions&);
+template std::string options_defect(const CheckOptions&);
+
 }  // namespace delmesher::run
 
 namespace delmesher {
+namespace {
+
+template <class JobOptions>
+void choose_all_of_paper(JobOptions& chosen) {
+  for (const options::Value& option : options::values_of(chosen)) {
+    if (option.is_paper()) options::set(chosen, option.text.name, 1);
+  }
+}
+
+}  // namespace
 
 Options paper_options() {
-  Options options;
-  options.acute = options.corner = 90;
-  options.gabriel = true;
-  options.improve = false;
-  options.slivers = true;
-  options.planar = 0;
-  for (const NamedChoice& choice : kPaperChoices) options.as_paper.*choice.member = true;
-  options.region = Region::hull;
-  return options;
+  Options paper;
+  paper.acute = paper.corner = 90;
+  paper.gabriel = true;
+  paper.improve = false;
+  paper.slivers = true;
+  paper.planar = 0;
+  paper.region = Region::hull;
+  choose_all_of_paper(paper);
+  return paper;
 }
 
-Options plane_options() {
-  Options options;
-  options.delta = 20.7;
-  return options;
-}
-
-Options paper_plane_options() {
-  Options options = paper_options();
-  options.as_paper = {.steiner_point = true};
-  options.delta = plane_options().delta;
-  options.tau = 0;
-  return options;
+PlaneOptions paper_plane_options() {
+  PlaneOptions paper;
+  paper.tau = 0;
+  paper.acute = 90;
+  paper.region = Region::hull;
+  choose_all_of_paper(paper);
+  return paper;
 }
 
 const char* version() {

@@ -1,4 +1,4 @@
-// Options as the driver sees them.
+// Options as the drivers see them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace delmesher::run {
 
-// Names an option whose value is not accepted; empty if all are.
-std::string options_defect(const Options& options, const OptionBounds& bounds);
+// Names an option of the job whose value is not accepted; empty if all are.
+template <class JobOptions>
+std::string options_defect(const JobOptions& options);
 
 }  // namespace delmesher::run

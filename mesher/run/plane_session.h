@@ -9,10 +9,10 @@
 namespace delmesher::plane {
 
 struct Session {
-  Session(const Options& run_options, Control& run_control)
+  Session(const PlaneOptions& run_options, Control& run_control)
       : options(run_options), control(run_control) {}
 
-  const Options& options;
+  const PlaneOptions& options;
   Control& control;
   PointStore points;  // the input vertices, the corners of the box, then what the stages append
   PlanePredicates predicates{points};

@@ -107,11 +107,11 @@ std::string PlaneVerdict::text() const {
   return text;
 }
 
-PlaneVerdict verify_plane(const PlanarGraph& graph, const delmesher::Options& options,
+PlaneVerdict verify_plane(const PlanarGraph& graph, const delmesher::PlaneOptions& options,
                           const delmesher::PlaneResult& result) {
   PlaneVerdict verdict;
   PlaneVerifyOptions how;
-  how.promised = oracles::promise_of(options, oracles::Task::plane);
+  how.promised = oracles::promise_of(options);
   const std::string why =
       verify_plane(graph, oracles::plane_file_of(result.mesh), &result.exact, how, verdict.report);
   if (!why.empty()) verdict.failures.push_back("input: " + why);

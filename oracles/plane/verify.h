@@ -44,7 +44,8 @@ struct PlaneVerdict {
 };
 
 // For a result of the library, with status ok and an exact record.
-PlaneVerdict verify_plane(const delmesher::PlanarGraph& graph, const delmesher::Options& options,
+PlaneVerdict verify_plane(const delmesher::PlanarGraph& graph,
+                          const delmesher::PlaneOptions& options,
                           const delmesher::PlaneResult& result);
 
 }  // namespace tetproof

@@ -104,13 +104,13 @@ constexpr Word kSwitches[] = {{"-q", kAll},
                               {"--quiet", kAll},
                               {"-v", kAll},
                               {"--verbose", kAll},
-                              {"--no-bridge-simplification", kMesh},
                               {"--ascii", kAll},
                               {"--gabriel", kMesh},
                               {"--approximate", kMesh | kPlane}};
 constexpr Word kChosen[] = {
     {"--preset", kMesh | kPlane}, {"--as-paper", kMesh | kPlane}, {"--region", kSurface | kPlane},
-    {"--order", kSpace},          {"--improve", kMesh},           {"--slivers", kMesh}};
+    {"--order", kSpace},          {"--improve", kMesh},           {"--slivers", kMesh},
+    {"--simplify-bridges", kMesh}};
 
 template <std::size_t N>
 bool among(const Word (&words)[N], const std::string& name, Task task) {
@@ -474,33 +474,53 @@ std::string parse_promise(std::string_view text, Promise& promise) {
   return PromiseReader(text).read(promise);
 }
 
-Promise promise_of(const delmesher::Options& options, Task task) {
+Promise promise_of(const delmesher::Options& options) {
   Promise p;
-  p.task = task;
   p.delta = options.delta;
   p.tau = options.tau;
-  p.planar = task == Task::mesh ? options.planar : 0;
+  p.planar = options.planar;
   p.acute = options.acute;
   p.corner = options.corner;
   p.gabriel = options.gabriel;
   p.approximate = options.approximate;
-  p.improve = task == Task::mesh && options.improve;
-  if (task == Task::mesh) {
-    p.link = options.as_paper.link;
-    p.bridges = options.as_paper.bridges;
-    p.steiner_point = options.as_paper.steiner_point;
-    p.kept_points = options.as_paper.kept_points;
-    p.enrichment = options.as_paper.enrichment;
-    p.filter_pairs = options.as_paper.filter_pairs;
-    p.filter_chamfered = options.as_paper.filter_chamfered;
-    p.no_guard = options.as_paper.no_guard;
-  }
+  p.improve = options.improve;
+  p.link = options.as_paper.link;
+  p.bridges = options.as_paper.bridges;
+  p.steiner_point = options.as_paper.steiner_point;
+  p.kept_points = options.as_paper.kept_points;
+  p.enrichment = options.as_paper.enrichment;
+  p.filter_pairs = options.as_paper.filter_pairs;
+  p.filter_chamfered = options.as_paper.filter_chamfered;
+  p.no_guard = options.as_paper.no_guard;
   p.region = options.region;
   p.chamfer_radius = options.chamfer_radius;
   p.max_edge = options.max_edge;
   p.size_field = options.size_field;
   p.size_growth = options.size_growth;
   p.budget = static_cast<double>(options.budget);
+  p.max_vertices = static_cast<double>(options.max_vertices);
+  return p;
+}
+
+Promise promise_of(const delmesher::CdtOptions& options) {
+  Promise p;
+  set_defaults(Task::cdt, false, p);
+  p.region = options.region;
+  p.max_vertices = static_cast<double>(options.max_vertices);
+  return p;
+}
+
+Promise promise_of(const delmesher::PlaneOptions& options) {
+  Promise p;
+  set_defaults(Task::plane, false, p);
+  p.delta = options.delta;
+  p.tau = options.tau;
+  p.acute = options.acute;
+  p.approximate = options.approximate;
+  p.steiner_point = options.as_paper.steiner_point;
+  p.region = options.region;
+  p.chamfer_radius = options.chamfer_radius;
+  p.max_edge = options.max_edge;
   p.max_vertices = static_cast<double>(options.max_vertices);
   return p;
 }

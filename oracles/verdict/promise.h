@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "oracles/verdict/report.h"
 
 namespace tetproof::oracles {
@@ -68,7 +68,9 @@ struct Promise {
 std::string parse_promise(std::string_view text, Promise& promise);
 
 // The same for a call of the library.
-Promise promise_of(const delmesher::Options& options, Task task = Task::mesh);
+Promise promise_of(const delmesher::Options& options);
+Promise promise_of(const delmesher::CdtOptions& options);
+Promise promise_of(const delmesher::PlaneOptions& options);
 
 // Checks the record's version, that it has exactly the sections that the promise needs, and that
 // its parameters are those promised or stricter ones. `diagonal`: of the input's bounding box, in

@@ -20,13 +20,16 @@ Options honest_options() {
 }
 
 Told run_of(const Options& options, Task task, const delmesher::Surface& surface) {
+  delmesher::CdtOptions plain;
+  plain.region = options.region;
+  plain.want_exact = options.want_exact;
   const delmesher::Result result = task == Task::cdt
-                                       ? delmesher::constrained_delaunay(surface, options)
+                                       ? delmesher::constrained_delaunay(surface, plain)
                                        : delmesher::tetrahedralize(surface, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   return {{samples::to_polyhedron(surface), samples::to_mesh(result.mesh)},
           result.exact,
-          promise_of(options, task)};
+          task == Task::cdt ? promise_of(plain) : promise_of(options)};
 }
 
 const Told& honest() {

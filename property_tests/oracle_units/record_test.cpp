@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/delmesher/option_table.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/files/sidecar.h"
 #include "oracles/improvement/local_operations.h"
@@ -108,16 +109,17 @@ TEST(Promises, AreReadFromCommandLines) {
   EXPECT_EQ(parse_promise("--order=1", p), "");
   EXPECT_FALSE(p.second_order);
   // The promises of a text are those of the same options.
-  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
+  for (const std::string& name : delmesher::options::paper_choices<delmesher::Options>()) {
     delmesher::Options options;
-    options.as_paper.*choice.member = true;
+    EXPECT_TRUE(delmesher::options::set(options, name, 1));
     const Promise q = promise_of(options);
-    EXPECT_EQ(parse_promise(std::string("--as-paper=") + choice.name, p), "") << choice.name;
+    const std::string choice = delmesher::options::argument_name(name);
+    EXPECT_EQ(parse_promise("--as-paper=" + choice, p), "") << choice;
     const auto choices = [](const Promise& x) {
       return std::tuple(x.link, x.bridges, x.kept_points, x.enrichment, x.filter_pairs,
                         x.filter_chamfered, x.no_guard);
     };
-    EXPECT_EQ(choices(p), choices(q)) << choice.name;
+    EXPECT_EQ(choices(p), choices(q)) << choice;
     EXPECT_EQ(parse_promise("--preset paper", p), "");
     EXPECT_EQ(choices(p), choices(promise_of(delmesher::paper_options())));
     EXPECT_EQ(parse_promise("--preset paper --as-paper none", p), "");
@@ -283,12 +285,13 @@ TEST(Units, TheVerdictIsTheSameInAll) {
     for (auto& p : scaled.vertices) {
       for (double& x : p) x = std::ldexp(x, power);
     }
-    delmesher::Options options;
+    delmesher::CdtOptions options;
     options.want_exact = true;
+    options.region = delmesher::Region::interior;
     delmesher::Result result = delmesher::constrained_delaunay(scaled, options);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     VerifyOptions wanted;
-    wanted.promised = promise_of(options, Task::cdt);
+    wanted.promised = promise_of(options);
     if (power != 0) wanted.sidecar = "is not read in other units";
     VerifyReport report;
     ASSERT_EQ(verify(samples::to_polyhedron(scaled), samples::to_mesh(result.mesh), &result.exact,

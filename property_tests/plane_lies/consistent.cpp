@@ -15,7 +15,7 @@ namespace tetproof::plane_lies {
 namespace {
 
 using delmesher::ExactPoint;
-using delmesher::Options;
+using delmesher::PlaneOptions;
 using delmesher::PlaneRecord;
 using oracles::PlaneFile;
 using Side = PlaneRecord::Side;
@@ -24,7 +24,7 @@ using Index = std::uint32_t;
 // A run with other options, told to be the honest one.
 template <class Change>
 void claim_for(Told& told, Change change) {
-  Options options = honest_options();
+  PlaneOptions options = honest_options();
   change(options);
   const PlaneVerifyOptions promised = told.how;
   const double delta = told.record.delta, acute = told.record.acute;
@@ -200,16 +200,16 @@ void write_refined(Told& told) {
 }
 
 void run_approximate(Told& told) {
-  Options options = honest_options();
+  PlaneOptions options = honest_options();
   options.approximate = true;
   told = run_of(options);
 }
 
 const Lie kConsistent[] = {
     {"a run with delta 5", "refined-angles",
-     [](Told& t) { claim_for(t, [](Options& o) { o.delta = 5; }); }},
+     [](Told& t) { claim_for(t, [](PlaneOptions& o) { o.delta = 5; }); }},
     {"a run with corners below 90 degrees chamfered", "refined-chamfer-need",
-     [](Told& t) { claim_for(t, [](Options& o) { o.acute = 90; }); }},
+     [](Told& t) { claim_for(t, [](PlaneOptions& o) { o.acute = 90; }); }},
     {"a run with chamfers wider than promised", "refined-chamfer-distance",
      [](Told& t) { t.how.promised.chamfer_radius = 0x1p-8; }},
     {"a run with edges longer than promised", "refined-edges",
@@ -221,7 +221,7 @@ const Lie kConsistent[] = {
     {"a run of the other region", "same-mesh",
      [](Told& t) { t.how.promised.region = delmesher::Region::hull; }},
     {"a run that stopped before the last step", "promise",
-     [](Told& t) { claim_for(t, [](Options& o) { o.approximate = true; }); }},
+     [](Told& t) { claim_for(t, [](PlaneOptions& o) { o.approximate = true; }); }},
     {"all segments dropped, an empty box refined", "refined-drops",
      [](Told& t) {
        empty_box(t.record);

@@ -8,8 +8,8 @@
 namespace tetproof::plane_lies {
 namespace {
 
-using delmesher::Options;
 using delmesher::PlanarGraph;
+using delmesher::PlaneOptions;
 
 // The first written vertex that is not of the input, but within it.
 std::size_t inner(const Told& told) {
@@ -24,20 +24,20 @@ std::size_t inner(const Told& told) {
 const Lie kForeign[] = {
     {"file of another run", "same-mesh",
      [](Told& t) {
-       Options options = honest_options();
+       PlaneOptions options = honest_options();
        options.max_edge = 0.5;
        t.file = run_of(options).file;
      }},
     {"the same, every written vertex point 0", "rounding",
      [](Told& t) {
-       Options options = honest_options();
+       PlaneOptions options = honest_options();
        options.max_edge = 0.5;
        t.file = run_of(options).file;
        t.record.mesh_vertices.assign(t.file.vertices.size(), 0);
      }},
     {"file of another run, its vertices right", "same-mesh",
      [](Told& t) {
-       Options options = honest_options();
+       PlaneOptions options = honest_options();
        options.max_edge = 0.5;
        const Told other = run_of(options);
        t.file = other.file;
@@ -56,7 +56,7 @@ const Lie kForeign[] = {
      [](Told& t) { t.file.vertices[steiner(t)][0] += 6 * 0x1p-50; }},  // of the largest, 4.5
     {"the same, beside a corner of the outer box at 2^60", "rounding",
      [](Told& t) {
-       Options options = honest_options();
+       PlaneOptions options = honest_options();
        options.region = delmesher::Region::hull;
        t = run_of(options);
        for (std::size_t i = 0; i < t.file.vertices.size(); ++i) {

@@ -8,8 +8,8 @@
 
 namespace tetproof::plane_lies {
 
-using delmesher::Options;
 using delmesher::PlanarGraph;
+using delmesher::PlaneOptions;
 using delmesher::PlaneRecord;
 using delmesher::PlaneResult;
 using Side = PlaneRecord::Side;
@@ -26,18 +26,18 @@ PlanarGraph honest_graph() {
   return graph;
 }
 
-Options honest_options() {
-  Options options = delmesher::plane_options();
+PlaneOptions honest_options() {
+  PlaneOptions options;
   options.want_exact = true;
   options.tau = 1e-2;
   return options;
 }
 
-Told run_of(const Options& options, const PlanarGraph& graph) {
+Told run_of(const PlaneOptions& options, const PlanarGraph& graph) {
   const PlaneResult result = delmesher::triangulate_polygon(graph, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   Told told{graph, oracles::plane_file_of(result.mesh), result.exact, {}};
-  told.how.promised = oracles::promise_of(options, oracles::Task::plane);
+  told.how.promised = oracles::promise_of(options);
   return told;
 }
 

@@ -23,9 +23,9 @@ struct Told {
 // 2000 between them: one is dropped. Holes decide the inside, not parity.
 delmesher::PlanarGraph honest_graph();
 
-delmesher::Options honest_options();
+delmesher::PlaneOptions honest_options();
 
-Told run_of(const delmesher::Options& options,
+Told run_of(const delmesher::PlaneOptions& options,
             const delmesher::PlanarGraph& graph = honest_graph());
 
 // The one run that most lies are about.

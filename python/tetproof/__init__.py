@@ -11,9 +11,10 @@
 import contextlib
 import dataclasses
 import difflib
+import inspect
 import os
 import sys
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 
@@ -297,25 +298,34 @@ def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Op
     return _points(points), _indices(triangles, "triangles"), _labels(labels)
 
 
-_REGIONS = {"interior": 0, "hull": 1}
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-def _options(given: Mapping[str, Any], names: Mapping[str, Any], size_field: Any = None) -> Dict[str, Any]:
-    options = {name: value for name, value in {**names, **given}.items() if value is not None}
-    unknown = sorted(set(options) - set(_core.option_names()))
+def _with_options(function: _Function) -> _Function:
+    """Puts the options of a job, of the function's name, into its signature and docstring."""
+    signature, lines = inspect.signature(function), []
+    parameters = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
+    for name, kind, default, unit, text in _core.options[function.__name__]:
+        parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default))
+        lines.append("    %s : %s, %s" % (name, kind, "optional" if default is None else "default %r" % default))
+        lines.append("        %s%s." % (text[0].upper() + text[1:], unit and ", " + unit))
+    function.__signature__ = signature.replace(parameters=parameters)  # type: ignore
+    if function.__doc__:  # not there with -OO
+        function.__doc__ = function.__doc__.replace("    **options\n", "\n".join(lines) + "\n")
+    return function
+
+
+def _options(job: str, given: Mapping[str, Any]) -> Dict[str, Any]:
+    options = {name: value for name, value in given.items() if value is not None}
+    names = [name for name, *_ in _core.options[job]]
+    unknown = sorted(set(options) - set(names))
     if unknown:
-        near = difflib.get_close_matches(unknown[0], _core.option_names(), 1)
-        hint = ": did you mean %s?" % near[0] if near else " (there are %s)" % ", ".join(_core.option_names())
+        near = difflib.get_close_matches(unknown[0], names, 1)
+        hint = ": did you mean %s?" % near[0] if near else " (there are %s)" % ", ".join(names)
         raise TypeError("no such option: %s%s" % (", ".join(unknown), hint))
-    if isinstance(options.get("region"), str):
-        if options["region"] not in _REGIONS:
-            raise ValueError("region must be 'interior' or 'hull'")
-        options["region"] = _REGIONS[options["region"]]
-    if options.get("planar") == "auto":
-        options["planar"] = -1
-    named: Dict[str, Any] = {name: float(value) for name, value in options.items()}
-    if size_field is not None:
-        named["size_field"] = np.ascontiguousarray(size_field, dtype=np.float64)
+    named: Dict[str, Any] = {name: value if isinstance(value, str) else float(value) for name, value in options.items() if name != "size_field"}
+    if "size_field" in options:
+        named["size_field"] = np.ascontiguousarray(options["size_field"], dtype=np.float64)
     return named
 
 
@@ -390,8 +400,8 @@ def _shown(progress: Any) -> Iterator[Any]:
         bar.close()
 
 
-def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Optional[float] = None, size_field: Any = None,
-         delta: Optional[float] = None, threads: Optional[int] = None, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
+@_with_options
+def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
     """Mesh the inside of a closed surface.
 
     Parameters
@@ -402,21 +412,13 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Op
         Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
     labels : (m,) array_like of int, optional
         Come back on the boundary.
-    max_edge : float, optional
-        Largest edge, in units of the input.
-    size_field : (k, 4) array_like of float, optional
-        Smaller edges in places: rows ``x, y, z, size``. No edge is longer than ``size + size_growth * d`` at a distance ``d`` of any
-        of these points; the option ``size_growth`` is 0.3. Of a function ``f``: ``numpy.column_stack([points, f(points)])``.
-    delta : float, default 14.47
-        Smallest face angle of the refined mesh, degrees; best effort above the default.
-    threads : int, default 1
-        0: one per core. The result is the same for every number.
     progress : callable or True, optional
         ``progress(phase, done, vertices)``, called several times a second; False ends the run with `Interrupted`, an
         exception ends it with that. True shows a bar.
     **options
-        As on the command line: tau, planar, budget, acute, corner, gabriel, improve, slivers, approximate, chamfer_radius, region,
-        max_vertices, time_limit, order, steiner_point, simplify_bridges.
+
+    Rows of a `size_field` are ``x, y, z, size``: no edge is longer than ``size + size_growth * d`` at a distance ``d`` of any of these
+    points. Of a function ``f``: ``numpy.column_stack([points, f(points)])``.
 
     Returns
     -------
@@ -432,20 +434,27 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Op
         An option or an array makes no sense.
     """
     arrays = _surface(points, triangles, labels)
-    named = _options(options, {"max_edge": max_edge, "delta": delta, "threads": threads}, size_field)
+    named = _options("mesh", options)
     with _shown(progress) as shown:
-        result = _core.mesh(*arrays, named, shown, False)
+        result = _core.mesh(*arrays, named, shown)
     _raise(result, lambda: check(*arrays[:2]))
     return _mesh(result, getattr(points, "names", None))
 
 
-def cdt(points: Any, triangles: Any = None, labels: Any = None, *, region: str = "hull", progress: Union[Progress, bool, None] = None,
-        **options: Any) -> Mesh:
-    """Constrained Delaunay tetrahedrization of the convex hull of a valid surface, without any promise of quality."""
+@_with_options
+def cdt(points: Any, triangles: Any = None, labels: Any = None, *, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
+    """Constrained Delaunay tetrahedrization of the convex hull of a valid surface, without any promise of quality.
+
+    Parameters
+    ----------
+    points, triangles, labels, progress
+        As in `mesh`.
+    **options
+    """
     arrays = _surface(points, triangles, labels)
-    named = _options(options, {"region": region})
+    named = _options("cdt", options)
     with _shown(progress) as shown:
-        result = _core.mesh(*arrays, named, shown, True)
+        result = _core.cdt(*arrays, named, shown)
     _raise(result, lambda: check(*arrays[:2]))
     return _mesh(result, getattr(points, "names", None))
 
@@ -464,21 +473,24 @@ def _tetrahedra(given: Any) -> Mesh:
     raise TypeError("a mesh of tetrahedra is expected; `read_mesh` makes one of a file")
 
 
-def improve(mesh: Any, *, max_edge: Optional[float] = None, size_field: Any = None, delta: Optional[float] = None,
-            progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
+@_with_options
+def improve(mesh: Any, *, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
     """Fewer and better tetrahedra of any conforming mesh; its boundary and its regions are kept exactly.
 
     Parameters
     ----------
     mesh : Mesh, or an object with tetrahedra
         What meshio or pyvista have, of which the tetrahedra are taken; their hull is kept.
+    progress
+        As in `mesh`.
+    **options
 
     Raises
     ------
     InvalidMesh
         The mesh is not conforming.
     """
-    named = _options(options, {"max_edge": max_edge, "delta": delta}, size_field)
+    named = _options("improve", options)
     with _shown(progress) as shown:
         result = _core.improve(_fields(_tetrahedra(mesh)), named, shown)
     _raise(result)
@@ -487,14 +499,21 @@ def improve(mesh: Any, *, max_edge: Optional[float] = None, size_field: Any = No
     return better
 
 
+@_with_options
 def check(points: Any, triangles: Any = None, **options: Any) -> Report:
     """Is this a valid surface? If not, what is wrong, and where? Decided exactly.
+
+    Parameters
+    ----------
+    points, triangles
+        As in `mesh`.
+    **options
 
     >>> tetproof.check([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).counts
     {'open edge': 3}
     """
     arrays = _surface(points, triangles, None)
-    result = _core.check(*arrays[:2], _options(options, {}))
+    result = _core.check(*arrays[:2], _options("check", options))
     if result["status"] not in ("ok", "invalid_surface"):
         _raise(result)
     fields = {f.name: result[f.name] for f in dataclasses.fields(Report) if f.name in result}
@@ -522,8 +541,9 @@ def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: floa
     return Repaired(**result, names=dict(getattr(points, "names", {})))
 
 
-def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None, max_edge: Optional[float] = None,
-          delta: Optional[float] = None, progress: Union[Progress, bool, None] = None, **options: Any) -> PlaneMesh:
+@_with_options
+def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None, progress: Union[Progress, bool, None] = None,
+          **options: Any) -> PlaneMesh:
     """Mesh a planar straight-line graph with triangles: what its segments enclose, but for the faces with a hole point.
 
     Parameters
@@ -532,11 +552,12 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
     segments : (m, 2) array_like of int
     markers : (m,) array_like of int, optional
     holes : (h, 2) array_like of float, optional
-    delta : float, default 20.7
-        Smallest angle, degrees.
+    progress
+        As in `mesh`.
+    **options
     """
     no_holes = np.zeros((0, 2)) if holes is None else holes
-    named = _options(options, {"max_edge": max_edge, "delta": delta})
+    named = _options("plane", options)
     with _shown(progress) as shown:
         result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes), named, shown)
     _raise(result)

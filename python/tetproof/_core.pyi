@@ -1,17 +1,20 @@
 """Without comfort; use tetproof."""
-from typing import Any, Callable, Dict, List, Mapping, Optional, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
 
 version: str
-_Options = Mapping[str, Union[float, Array]]
+_Options = Mapping[str, Union[float, str, Array]]
 _Progress = Optional[Callable[[str, float, int], Optional[bool]]]
 
-def option_names() -> List[str]: ...
-def mesh(points: Array, triangles: Array, labels: Optional[Array], options: _Options, progress: _Progress,
-         plain: bool) -> Dict[str, Any]: ...
+#: Of each job: name, type, default, unit, meaning.
+options: Dict[str, List[Tuple[str, str, Any, str, str]]]
+def mesh(points: Array, triangles: Array, labels: Optional[Array], options: _Options,
+         progress: _Progress) -> Dict[str, Any]: ...
+def cdt(points: Array, triangles: Array, labels: Optional[Array], options: _Options,
+        progress: _Progress) -> Dict[str, Any]: ...
 def improve(mesh: Mapping[str, Array], options: _Options, progress: _Progress) -> Dict[str, Any]: ...
 def check(points: Array, triangles: Array, options: _Options) -> Dict[str, Any]: ...
 def repair(points: Array, triangles: Array, labels: Optional[Array], weld: float, fill: bool) -> Dict[str, Any]: ...

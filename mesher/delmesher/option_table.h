@@ -1,0 +1,397 @@
+// All options of all jobs, a row each. Whoever names, reads, writes, checks or scales options takes
+// them from here: the command line and its help, C, Python and its docstrings, the statistics
+// (--stats), docs/options.md, options_defect() and in_ordinary_units().
+//
+// A row says what holds for an option, and which members it is: a job has the option if its struct
+// has one of these members. The same name may stand in several rows, where it means something else,
+// or has other bounds, in another job.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "options.h"
+
+namespace delmesher::options {
+
+// The values that are accepted; not NaN.
+struct Bounds {
+  double low = 0, high = 1;
+  bool above_low = false;  // low itself is not
+
+  constexpr bool allow(double x) const { return (above_low ? x > low : x >= low) && x <= high; }
+};
+inline constexpr double kNoBound = HUGE_VAL;
+inline constexpr Bounds kAnyLength{.high = kNoBound}, kDegreesToRight{.high = 90};
+
+enum class Unit : std::uint8_t { none, degrees, length, seconds };
+
+// A word that stands for a value.
+struct Word {
+  std::string_view word;
+  double value = 0;
+};
+
+struct Text {
+  std::string_view name;  // as everywhere; on the command line with - for _
+  std::string_view help;
+  Bounds bounds = {};  // of switches and choices: 0 and 1
+  Unit unit = Unit::none;
+  bool zero_is_none = false;  // on the command line one leaves the option out instead
+  bool promised = false;      // the oracles hold the mesh to it, if told with --promised
+  std::array<Word, 2> words = {};
+};
+
+template <class... Members>
+struct Row {
+  Text text;
+  std::tuple<Members...> members;
+
+  constexpr explicit Row(const Text& row_text, Members... row_members)
+      : text(row_text), members(row_members...) {}
+};
+
+// Choices of --as-paper have this before their names.
+inline constexpr std::string_view kPaper = "paper_";
+
+inline constexpr std::tuple kTable{
+    Row({.name = "delta",
+         .help = "smallest face angle, best effort above the default",
+         .bounds = {.low = 0, .high = 30, .above_low = true},
+         .unit = Unit::degrees,
+         .promised = true},
+        &Options::delta),
+    Row({.name = "delta",
+         .help = "no smaller face angle is made",
+         .bounds = {.low = 0, .high = 30, .above_low = true},
+         .unit = Unit::degrees,
+         .promised = true},
+        &ImproveOptions::delta),
+    Row({.name = "delta",
+         .help = "smallest angle, guaranteed up to the default",
+         .bounds = {.low = 0, .high = 34, .above_low = true},
+         .unit = Unit::degrees,
+         .promised = true},
+        &PlaneOptions::delta),
+    Row({.name = "tau",
+         .help = "input filter: facets closer than this fraction of the diagonal wait for the last "
+                 "step; 0 is off",
+         .promised = true},
+        &Options::tau),
+    Row({.name = "tau",
+         .help = "narrowest channel that is refined, width over length; 0: any",
+         .promised = true},
+        &PlaneOptions::tau),
+    Row({.name = "planar",
+         .help = "merge triangles that are coplanar within this fraction of the diagonal; 0: the "
+                 "surface as given",
+         .bounds = {.high = 0.01},
+         .promised = true,
+         .words = {{{"auto", kPlanarAuto}}}},
+        &Options::planar, &CheckOptions::planar),
+    Row({.name = "budget",
+         .help = "tetrahedra wanted at most: tau doubles while more are predicted",
+         .bounds = {.high = 1e15},
+         .zero_is_none = true,
+         .promised = true},
+        &Options::budget),
+    Row({.name = "acute",
+         .help = "chamfer corners below this angle",
+         .bounds = kDegreesToRight,
+         .unit = Unit::degrees,
+         .promised = true},
+        &Options::acute),
+    Row({.name = "acute",
+         .help = "chamfer corners below this angle",
+         .bounds = {.low = 60, .high = 90},
+         .unit = Unit::degrees,
+         .promised = true},
+        &PlaneOptions::acute),
+    Row({.name = "acute",
+         .help = "corners below this angle are acute",
+         .bounds = kDegreesToRight,
+         .unit = Unit::degrees},
+        &CheckOptions::acute),
+    Row({.name = "corner",
+         .help = "the same for corners between two edges",
+         .bounds = kDegreesToRight,
+         .unit = Unit::degrees,
+         .promised = true},
+        &Options::corner, &CheckOptions::corner),
+    Row({.name = "gabriel",
+         .help = "split constraints until their diametral balls are empty",
+         .promised = true},
+        &Options::gabriel),
+    Row({.name = "slivers",
+         .help = "treat slivers in the refinement: rounder tetrahedra, some more of them"},
+        &Options::slivers),
+    Row({.name = "improve",
+         .help = "fewer and better tetrahedra by local operations on the same surface",
+         .promised = true},
+        &Options::improve),
+    Row({.name = "approximate",
+         .help = "stop before restoring the input: a mesh of the chamfered surface",
+         .promised = true},
+        &Options::approximate),
+    Row({.name = "approximate",
+         .help = "stop before restoring the input: a mesh of the chamfered graph",
+         .promised = true},
+        &PlaneOptions::approximate),
+    Row({.name = "simplify_bridges",
+         .help = "drop bridges, the paths that replace cut-off corners, that no angle needs "
+                 "(section 4.4)"},
+        &Options::simplify_bridges),
+    Row({.name = "chamfer_radius",
+         .help = "how far a chamfer may reach",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true,
+         .promised = true},
+        &Options::chamfer_radius, &PlaneOptions::chamfer_radius),
+    Row({.name = "max_edge",
+         .help = "largest edge",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true,
+         .promised = true},
+        &Options::max_edge, &PlaneOptions::max_edge),
+    Row({.name = "max_edge",
+         .help = "no longer edge is made",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true,
+         .promised = true},
+        &ImproveOptions::max_edge),
+    Row({.name = "size_field",
+         .help = "smaller edges in places: lines X Y Z SIZE, or a .pos of Gmsh",
+         .unit = Unit::length,
+         .promised = true},
+        &Options::size_field, &ImproveOptions::size_field),
+    Row({.name = "size_growth",
+         .help = "how much larger edges may be per distance from the sources of the size field",
+         .bounds = {.above_low = true},
+         .promised = true},
+        &Options::size_growth, &ImproveOptions::size_growth),
+    Row({.name = "region",
+         .help = "where the angle bound holds, and what is written",
+         .promised = true,
+         .words = {{{"interior", 0}, {"hull", 1}}}},
+        &Options::region, &PlaneOptions::region),
+    Row({.name = "region",
+         .help = "what is written",
+         .promised = true,
+         .words = {{{"interior", 0}, {"hull", 1}}}},
+        &CdtOptions::region),
+    Row({.name = "weld",
+         .help = "join vertices no farther apart than this",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true},
+        &RepairOptions::weld),
+    Row({.name = "fill",
+         .help = "fill holes that are planar, or narrower than a twentieth of the diagonal"},
+        &RepairOptions::fill),
+    Row({.name = "max_vertices",
+         .help = "stop beyond this many vertices (exit 5)",
+         .bounds = {.high = 4294967294},  // the largest index
+         .zero_is_none = true,
+         .promised = true},
+        &Limits::max_vertices, &PlaneOptions::max_vertices),
+    Row({.name = "time_limit",
+         .help = "stop after this many seconds (exit 5)",
+         .bounds = {.high = kNoBound},
+         .unit = Unit::seconds,
+         .zero_is_none = true},
+        &TimeLimit::time_limit_seconds),
+    Row({.name = "threads",
+         .help = "threads that share the work, 0: one per core",
+         .bounds = {.high = 1024}},
+        &Limits::threads, &CheckOptions::threads, &RepairOptions::threads),
+
+    Row({.name = "paper_link",
+         .help = "chamfers reach at most a third of the way to the link (section 4.1)",
+         .promised = true},
+        &AsPaper::link),
+    Row({.name = "paper_bridges",
+         .help = "every triangle at a chamfered vertex has a bridge of its own (section 4.2)",
+         .promised = true},
+        &AsPaper::bridges),
+    Row({.name = "paper_order",
+         .help = "the tetrahedron with the largest radius-edge ratio is split first (section 5.4)"},
+        &AsPaper::order),
+    Row({.name = "paper_steiner_point",
+         .help = "bad tetrahedra, or triangles, are split at their circumcentre (section 5.6)",
+         .promised = true},
+        &AsPaper::steiner_point, &PlaneAsPaper::steiner_point),
+    Row({.name = "paper_kept_points",
+         .help = "all vertices outside the chamfers are kept to the end (section 6)",
+         .promised = true},
+        &AsPaper::kept_points),
+    Row({.name = "paper_enrichment",
+         .help = "the surface is always enriched (section 6)",
+         .promised = true},
+        &AsPaper::enrichment),
+    Row({.name = "paper_filter_pairs",
+         .help = "the filter drops both sides of every close pair (section 7)",
+         .promised = true},
+        &AsPaper::filter_pairs),
+    Row({.name = "paper_filter_chamfered",
+         .help = "the filter drops both sides of chamfered features below tau (section 7)",
+         .promised = true},
+        &AsPaper::filter_chamfered),
+    Row({.name = "paper_no_guard",
+         .help = "nothing is stricter than asked for, even where the refinement may not end",
+         .promised = true},
+        &AsPaper::no_guard)};
+
+// Has a job with these options the member, itself or in its as_paper?
+template <class JobOptions, class Class, class T>
+constexpr bool is_of(T Class::*) {
+  if constexpr (std::is_base_of_v<Class, JobOptions>) return true;
+  if constexpr (requires { std::declval<JobOptions>().as_paper; }) {
+    return std::is_same_v<Class, decltype(JobOptions::as_paper)>;
+  }
+  return false;
+}
+
+// Calls visit(text, member) for each option of the job, in the order of the table.
+template <class JobOptions, class Visit>
+constexpr void for_each(JobOptions& options, const Visit& visit) {
+  using Plain = std::remove_const_t<JobOptions>;
+  const auto visit_member = [&]<class Class, class T>(const Text& text, T Class::*member) {
+    if constexpr (std::is_base_of_v<Class, Plain>) {
+      visit(text, options.*member);
+    } else if constexpr (is_of<Plain>(static_cast<T Class::*>(nullptr))) {
+      visit(text, options.as_paper.*member);
+    }
+  };
+  const auto visit_row = [&](const auto& row) {
+    std::apply([&](const auto... members) { (visit_member(row.text, members), ...); }, row.members);
+  };
+  std::apply([&](const auto&... rows) { (visit_row(rows), ...); }, kTable);
+}
+
+enum class Kind : std::uint8_t {
+  number,
+  count,    // a whole number
+  on_off,   // 0 or 1
+  choice,   // of the row's words
+  sources,  // of a size field: no number
+};
+
+template <class T>
+constexpr Kind kind_of() {
+  if constexpr (std::is_same_v<T, double>) return Kind::number;
+  if constexpr (std::is_same_v<T, bool>) return Kind::on_off;
+  if constexpr (std::is_integral_v<T>) return Kind::count;
+  if constexpr (std::is_enum_v<T>) return Kind::choice;
+  return Kind::sources;
+}
+
+// An option of a job with its value.
+struct Value {
+  const Text& text;
+  Kind kind;
+  double value;  // 0 for sources
+  bool is_paper() const { return text.name.starts_with(kPaper); }
+};
+
+template <class JobOptions>
+std::vector<Value> values_of(const JobOptions& options) {
+  std::vector<Value> values;
+  for_each(options, [&]<class T>(const Text& text, const T& member) {
+    double value = 0;
+    if constexpr (kind_of<T>() != Kind::sources) value = static_cast<double>(member);
+    values.push_back({text, kind_of<T>(), value});
+  });
+  return values;
+}
+
+// The choices of the paper that a job has.
+template <class JobOptions>
+std::vector<std::string> paper_choices() {
+  std::vector<std::string> names;
+  for (const Value& option : values_of(JobOptions())) {
+    if (option.is_paper()) names.emplace_back(option.text.name);
+  }
+  return names;
+}
+
+// On the command line: "max_edge" -> "max-edge", "paper_steiner_point" -> "steiner-point".
+inline std::string argument_name(std::string_view name) {
+  if (name.starts_with(kPaper)) name.remove_prefix(kPaper.size());
+  std::string argument(name);
+  std::replace(argument.begin(), argument.end(), '_', '-');
+  return argument;
+}
+
+// False if the job has no such option, or if the value is not of its kind: switches are 0 or 1,
+// counts whole and within their bounds. The job itself checks the bounds of numbers.
+template <class JobOptions>
+bool set(JobOptions& options, std::string_view name, double value) {
+  bool done = false;
+  for_each(options, [&]<class T>(const Text& text, T& member) {
+    if (text.name != name) return;
+    if constexpr (kind_of<T>() == Kind::number) {
+      member = value;
+      done = true;
+    } else if constexpr (kind_of<T>() != Kind::sources) {
+      done = value == std::floor(value) && text.bounds.allow(value);
+      if (done) member = static_cast<T>(value);
+    }
+  });
+  return done;
+}
+
+// The same by a word of the row.
+template <class JobOptions>
+bool set(JobOptions& options, std::string_view name, std::string_view word) {
+  for (const Value& option : values_of(options)) {
+    if (option.text.name != name) continue;
+    for (const Word& known : option.text.words) {
+      if (!word.empty() && known.word == word) return set(options, name, known.value);
+    }
+  }
+  return false;
+}
+
+// Those of another job that this one has, too; its own defaults for the rest.
+template <class To, class From>
+To taken_from(const From& from) {
+  To to;
+  for_each(to, [&]<class T>(const Text& to_text, T& to_member) {
+    for_each(from, [&]<class U>(const Text& text, const U& member) {
+      if constexpr (std::is_same_v<T, U>) {
+        if (text.name == to_text.name) to_member = member;
+      }
+    });
+  });
+  if constexpr (std::is_base_of_v<TimeLimit, From>) to.progress = from.progress;
+  return to;
+}
+
+// Multiplies all lengths by 2^exponent.
+template <class JobOptions>
+void scale_lengths(JobOptions& options, int exponent) {
+  for_each(options, [&]<class T>(const Text& text, T& member) {
+    if (text.unit != Unit::length) return;
+    if constexpr (kind_of<T>() == Kind::number) {
+      member = std::ldexp(member, exponent);
+    } else if constexpr (kind_of<T>() == Kind::sources) {
+      for (SizeSource& source : member) {
+        for (double& x : source.point) x = std::ldexp(x, exponent);
+        source.size = std::ldexp(source.size, exponent);
+      }
+    }
+  });
+}
+
+}  // namespace delmesher::options

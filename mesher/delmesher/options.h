@@ -1,0 +1,116 @@
+// The options of each job: a struct with the members that the job uses, and no others.
+//
+// Angles are degrees, lengths are in the units of the input. Every option is a row of
+// option_table.h, which says which values it may have; others are StatusCode::invalid_options.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "as_paper.h"
+#include "run.h"
+#include "size_source.h"
+
+namespace delmesher {
+
+inline constexpr double kPlanarAuto = -1;
+
+// Of tetrahedralize().
+struct Options : Limits {
+  // Every face angle of the refined mesh is at least this (section 5.4). 14.47 is a radius-edge
+  // ratio of 2; above it the bound is best effort and insertions are capped.
+  double delta = 14.47;
+  // Input filter (section 7): facets closer than this fraction of the bounding-box diagonal are
+  // left to the final step. 0 turns the filter off.
+  double tau = 1e-4;
+  // Tetrahedra wanted at most: if more are predicted, tau is doubled until it fits. The final mesh
+  // conforms all the same. It may still be larger, because the prediction is within a factor of 3
+  // for nine models in ten only. 0: no budget.
+  std::uint64_t budget = 0;
+  // Corners with an angle below this are chamfered. The paper's proof needs 90.
+  double acute = 60;
+  // The threshold for corners between two edges, if it is smaller than `acute`. A smaller threshold
+  // does no harm there: the two segments are split at equal distances from their common end, and
+  // then they do not encroach each other, however acute their angle is.
+  double corner = 20;
+  // Split constraints until their open diametral balls are empty, as the paper does (sections 5.2
+  // and 5.3). Otherwise they are split where the Delaunay tetrahedrization lacks them and where
+  // volume points encroach them, which takes fewer tetrahedra.
+  bool gabriel = false;
+  // Fewer and better tetrahedra on the same surface, by local operations (section 8.3).
+  bool improve = true;
+  // Treat slivers in the refinement (section 5.7). The improvement then has less to mend, and ends
+  // with rounder tetrahedra and better worst ones, for a tenth more of them (docs/options.md).
+  bool slivers = true;
+  bool approximate = false;      // stop before the enriched CDT (section 6)
+  bool simplify_bridges = true;  // section 4.4
+  double chamfer_radius = 0;     // how far a chamfer may reach; 0: no bound
+  // Triangles that are coplanar but for rounding become one facet. The surface keeps the vertices
+  // and edges of such facets; in between it may deviate by this fraction of the bounding box's
+  // diagonal. 0: the surface as given, to the last bit; if meshes are improved, such triangles are
+  // one facet while they are refined, and the edges between them come back at the end. kPlanarAuto:
+  // as little as it takes for triangles that are bent by less than 2^-20 of the diagonal, at most
+  // 2^-18; where coordinates were rounded to few digits, six times what that moves a point off a
+  // plane (surface/flatness.h, surface/resolution.h), and where edges tell of more noise, 16 times
+  // that (surface/edge_bends.h), at most 2^-12.
+  double planar = kPlanarAuto;
+  double max_edge = 0;  // largest edge wanted inside; 0: no bound
+  // Smaller edges in places: nowhere along an edge inside is it longer than size + size_growth *
+  // distance, of any of these sources and its distance. Empty: no bound.
+  std::vector<SizeSource> size_field;
+  double size_growth = 0.3;
+  AsPaper as_paper;
+  Region region = Region::interior;
+  bool want_exact = false;      // fill Result::exact
+  bool want_chamfered = false;  // fill Result::chamfered
+};
+
+// Of constrained_delaunay().
+struct CdtOptions : Limits {
+  Region region = Region::hull;
+  bool want_exact = false;  // fill Result::exact
+};
+
+// Of improve_mesh().
+struct ImproveOptions : Limits {
+  double delta = 14.47;                // no smaller face angle is made
+  double max_edge = 0;                 // no longer edge is made; 0: no bound
+  std::vector<SizeSource> size_field;  // as in Options: no longer edge is made
+  double size_growth = 0.3;
+};
+
+// Of triangulate_polygon().
+struct PlaneOptions : TimeLimit {
+  double delta = 20.7;  // smallest angle; guaranteed up to this
+  // The narrowest channel between two segments, as a fraction of its length, that is refined. 0:
+  // none is too narrow.
+  double tau = 1e-4;
+  double acute = 60;          // corners with an angle below this are chamfered
+  bool approximate = false;   // stop before the input is restored
+  double chamfer_radius = 0;  // how far a chamfer may reach; 0: no bound
+  double max_edge = 0;        // largest edge wanted inside; 0: no bound
+  PlaneAsPaper as_paper;
+  Region region = Region::interior;
+  std::uint64_t max_vertices = 0;  // 0: 1e7 and 64 more per input vertex
+  bool want_exact = false;         // fill PlaneResult::exact
+  bool want_chamfered = false;     // fill PlaneResult::chamfered
+};
+
+// Of check_surface().
+struct CheckOptions : TimeLimit {
+  double acute = 60;            // corners with an angle below this are acute
+  double corner = 20;           // the same for corners between two edges
+  double planar = kPlanarAuto;  // as in Options: the facets that are counted
+  unsigned threads = 1;         // as in Limits
+};
+
+// Of repair_surface().
+struct RepairOptions {
+  // Vertices no farther apart than this become one, the first of them. Equal ones do in any case.
+  double weld = 0;
+  // Fill the holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
+  bool fill = false;
+  unsigned threads = 1;  // of the check that the command line makes afterwards
+};
+
+}  // namespace delmesher
