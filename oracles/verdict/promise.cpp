@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 #include <set>
+#include <variant>
 #include <vector>
 
 #include "oracles/verdict/edge_sizes.h"
@@ -56,12 +57,29 @@ unsigned bit_of(Task task) {
   return 0;
 }
 
-struct Number {
+enum class Takes : std::uint8_t {
+  nothing,
+  number,
+  word,     // one of two
+  file,     // where something is written, or what something is called
+  outputs,  // the same, several times
+  sizes,    // a file that promises something: a size field
+  list,     // of choices of the paper
+  choice    // one of these: no option of its own
+};
+
+// What an option of delmesher promises. The oracles read it on their own, from README and
+// docs/options.md.
+struct Option {
   const char* name;
-  double Promise::*target;  // null: promises nothing
   unsigned tasks;
-  double low, high;
+  Takes takes;
+  // A switch, a file and a choice set a bool; the second word is true, or the hull. Nothing: it
+  // says where and how, not what, or changes only the way to the same promises.
+  std::variant<std::monostate, double Promise::*, bool Promise::*, Region Promise::*> target = {};
+  double low = 0, high = 0;
   bool above_low = false;  // low itself is not allowed
+  std::array<const char*, 2> words = {};
 
   bool allows(double value) const {
     return (above_low ? value > low : value >= low) && value <= high;
@@ -69,54 +87,83 @@ struct Number {
 };
 
 constexpr double kMost = 1e308;
-constexpr Number kNumbers[] = {
-    {"--delta", &Promise::delta, kMesh | kImprove, 0, 30, true},
-    {"--delta", &Promise::delta, kPlane, 0, 34, true},
-    {"--tau", &Promise::tau, kMesh | kPlane, 0, 1},
-    {"--planar", &Promise::planar, kMesh, 0, 0.01},
-    {"--acute", &Promise::acute, kMesh, 0, 90},
-    {"--acute", &Promise::acute, kPlane, 60, 90},
-    {"--corner", &Promise::corner, kMesh, 0, 90},
-    {"--chamfer-radius", &Promise::chamfer_radius, kMesh | kPlane, 0, kMost, true},
-    {"--max-edge", &Promise::max_edge, kMesh | kPlane | kImprove, 0, kMost, true},
-    {"--size-growth", &Promise::size_growth, kMesh | kImprove, 0, 1, true},
-    {"--budget", &Promise::budget, kMesh, 1, 1e15},
-    {"--max-vertices", &Promise::max_vertices, kAll, 1, 4294967294},
-    {"--time-limit", nullptr, kAll, 0, kMost, true},
-    {"--threads", nullptr, kSpace, 0, 1024},
-    {"--jobs", nullptr, kAll, 0, 1024}};
+constexpr std::array<const char*, 2> kOffOn = {"off", "on"};
+constexpr Option kOptions[] = {
+    {"--delta", kMesh | kImprove, Takes::number, &Promise::delta, 0, 30, true},
+    {"--delta", kPlane, Takes::number, &Promise::delta, 0, 34, true},
+    {"--tau", kMesh | kPlane, Takes::number, &Promise::tau, 0, 1},
+    {"--planar", kMesh, Takes::number, &Promise::planar, 0, 0.01},  // or auto
+    {"--acute", kMesh, Takes::number, &Promise::acute, 0, 90},
+    {"--acute", kPlane, Takes::number, &Promise::acute, 60, 90},
+    {"--corner", kMesh, Takes::number, &Promise::corner, 0, 90},
+    {"--chamfer-radius", kMesh | kPlane, Takes::number, &Promise::chamfer_radius, 0, kMost, true},
+    {"--max-edge", kMesh | kPlane | kImprove, Takes::number, &Promise::max_edge, 0, kMost, true},
+    {"--size-field", kMesh | kImprove, Takes::sizes},
+    {"--size-growth", kMesh | kImprove, Takes::number, &Promise::size_growth, 0, 1, true},
+    {"--budget", kMesh, Takes::number, &Promise::budget, 1, 1e15},
+    {"--max-vertices", kAll, Takes::number, &Promise::max_vertices, 1, 4294967294},
+    {"--time-limit", kAll, Takes::number, {}, 0, kMost, true},
+    {"--threads", kSpace, Takes::number, {}, 0, 1024},
+    {"--jobs", kAll, Takes::number, {}, 0, 1024},
+    {.name = "--region",
+     .tasks = kSurface | kPlane,
+     .takes = Takes::word,
+     .target = &Promise::region,
+     .words = {"interior", "hull"}},
+    {.name = "--order",
+     .tasks = kSpace,
+     .takes = Takes::word,
+     .target = &Promise::second_order,
+     .words = {"1", "2"}},
+    {.name = "--improve",
+     .tasks = kMesh,
+     .takes = Takes::word,
+     .target = &Promise::improve,
+     .words = kOffOn},
+    {.name = "--slivers", .tasks = kMesh, .takes = Takes::word, .words = kOffOn},
+    {.name = "--simplify-bridges", .tasks = kMesh, .takes = Takes::word, .words = kOffOn},
+    {.name = "--preset",
+     .tasks = kMesh | kPlane,
+     .takes = Takes::word,
+     .words = {"paper", "paper"}},
+    {"--as-paper", kMesh | kPlane, Takes::list},
+    {"--gabriel", kMesh, Takes::nothing, &Promise::gabriel},
+    {"--approximate", kMesh | kPlane, Takes::nothing, &Promise::approximate},
+    {"--ascii", kAll, Takes::nothing},
+    {"-q", kAll, Takes::nothing},
+    {"--quiet", kAll, Takes::nothing},
+    {"-v", kAll, Takes::nothing},
+    {"--verbose", kAll, Takes::nothing},
+    {"-o", kAll, Takes::outputs},
+    {"--output", kAll, Takes::outputs},
+    {"--stats", kAll, Takes::file},
+    {"--exact", kSurface | kPlane, Takes::file},
+    {"--save-chamfered", kMesh | kPlane, Takes::file},
+    {"--names", kSpace, Takes::file, &Promise::names},
+    {"link", kMesh, Takes::choice, &Promise::link},
+    {"bridges", kMesh, Takes::choice, &Promise::bridges},
+    {"order", kMesh, Takes::choice},
+    {"steiner-point", kMesh | kPlane, Takes::choice, &Promise::steiner_point},
+    {"kept-points", kMesh, Takes::choice, &Promise::kept_points},
+    {"enrichment", kMesh, Takes::choice, &Promise::enrichment},
+    {"filter-pairs", kMesh, Takes::choice, &Promise::filter_pairs},
+    {"filter-chamfered", kMesh, Takes::choice, &Promise::filter_chamfered},
+    {"no-guard", kMesh, Takes::choice, &Promise::no_guard}};
 
-constexpr const char* kSizeField = "--size-field";  // the one file that promises something
+// Null if the task has none of this name; `name` may be that of a choice.
+const Option* find_option(const std::string& name, Task task) {
+  const auto* found =
+      std::find_if(std::begin(kOptions), std::end(kOptions), [&](const Option& option) {
+        return name == option.name && (option.tasks & bit_of(task)) != 0;
+      });
+  return found == std::end(kOptions) ? nullptr : found;
+}
 
-// These options say where and how, not what; --slivers guarantees nothing.
-struct Word {
-  const char* name;
-  unsigned tasks;
-};
-constexpr Word kFiles[] = {{"-o", kAll},
-                           {"--output", kAll},
-                           {"--stats", kAll},
-                           {"--exact", kSurface | kPlane},
-                           {"--save-chamfered", kMesh | kPlane},
-                           {"--names", kSpace},
-                           {kSizeField, kMesh | kImprove}};
-constexpr Word kSwitches[] = {{"-q", kAll},
-                              {"--quiet", kAll},
-                              {"-v", kAll},
-                              {"--verbose", kAll},
-                              {"--ascii", kAll},
-                              {"--gabriel", kMesh},
-                              {"--approximate", kMesh | kPlane}};
-constexpr Word kChosen[] = {
-    {"--preset", kMesh | kPlane}, {"--as-paper", kMesh | kPlane}, {"--region", kSurface | kPlane},
-    {"--order", kSpace},          {"--improve", kMesh},           {"--slivers", kMesh},
-    {"--simplify-bridges", kMesh}};
-
-template <std::size_t N>
-bool among(const Word (&words)[N], const std::string& name, Task task) {
-  return std::any_of(std::begin(words), std::end(words), [&](const Word& word) {
-    return name == word.name && (word.tasks & bit_of(task)) != 0;
-  });
+void put(const Option& option, bool value, Promise& p) {
+  if (const auto* flag = std::get_if<bool Promise::*>(&option.target)) p.** flag = value;
+  if (const auto* region = std::get_if<Region Promise::*>(&option.target)) {
+    p.** region = value ? Region::hull : Region::interior;
+  }
 }
 
 // Whole words only, in no locale, finite.
@@ -125,26 +172,10 @@ bool parse_number(const std::string& text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-// A choice of --as-paper. Some choices change only the way to the same promises; of these only the
-// names must be known.
-struct Choice {
-  const char* name;
-  bool Promise::*target;  // null: promises nothing
-  unsigned tasks = kMesh;
-};
-constexpr Choice kChoices[] = {{"link", &Promise::link},
-                               {"bridges", &Promise::bridges},
-                               {"order", nullptr},
-                               {"steiner-point", &Promise::steiner_point, kMesh | kPlane},
-                               {"kept-points", &Promise::kept_points},
-                               {"enrichment", &Promise::enrichment},
-                               {"filter-pairs", &Promise::filter_pairs},
-                               {"filter-chamfered", &Promise::filter_chamfered},
-                               {"no-guard", &Promise::no_guard}};
-
 void choose_all(bool all, Promise& p) {
-  for (const Choice& choice : kChoices) {
-    if (choice.target != nullptr) p.*choice.target = all && (choice.tasks & bit_of(p.task)) != 0;
+  for (const Option& option : kOptions) {
+    if (option.takes != Takes::choice) continue;
+    put(option, all && (option.tasks & bit_of(p.task)) != 0, p);
   }
 }
 
@@ -170,11 +201,11 @@ std::string choose(const std::string& list, Promise& p) {
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     const std::string name = list.substr(at, end - at);
-    const auto* choice = std::find_if(
-        std::begin(kChoices), std::end(kChoices),
-        [&](const Choice& c) { return name == c.name && (c.tasks & bit_of(p.task)) != 0; });
-    if (choice == std::end(kChoices)) return "nothing is called \"" + name + "\"";
-    if (choice->target != nullptr) p.*choice->target = true;
+    const Option* choice = find_option(name, p.task);
+    if (choice == nullptr || choice->takes != Takes::choice) {
+      return "nothing is called \"" + name + "\"";
+    }
+    put(*choice, true, p);
     at = end + 1;
   }
   return {};
@@ -222,60 +253,53 @@ class PromiseReader {
       value_ = option.substr(at + 1);
       option.resize(at);
     }
-    const bool file = among(kFiles, option, p.task);
-    // Which one counts would be anybody's guess; of files there may be several.
-    if ((!file || option == kSizeField) && !seen_.insert(option).second)
+    const Option* known = find_option(option, p.task);
+    if (known == nullptr || known->takes == Takes::choice) return option + ": no such option";
+    // Which one counts would be anybody's guess.
+    if (known->takes != Takes::outputs && !seen_.insert(option).second) {
       return option + " is there twice";
-    if (among(kSwitches, option, p.task)) {
+    }
+    if (known->takes == Takes::nothing) {
       if (value_) return option + " takes no value";
-      p.gabriel = p.gabriel || option == "--gabriel";
-      p.approximate = p.approximate || option == "--approximate";
+      put(*known, true, p);
       return {};
     }
     if (!value_ && next_ < words_.size()) value_ = words_[next_++];
-    if (!value_) return option + ": unknown, or without a value";
-    if (file) {
-      if (value_->empty()) return option + " without a file";
-      p.names = p.names || option == "--names";
-      return option == kSizeField ? read_size_field(*value_, p.size_field) : "";
-    }
-    return among(kChosen, option, p.task) ? apply_choice(option, p) : apply_number(option, p);
+    if (!value_ || value_->empty()) return option + " without a value";
+    return take(*known, p);
   }
 
-  std::string apply_choice(const std::string& option, Promise& p) {
-    const auto one_of = [&](const char* first, const char* second) -> std::string {
-      if (*value_ == first || *value_ == second) return {};
-      return option + " is " + first + " or " + second + ", not \"" + *value_ + "\"";
-    };
-    if (option == "--preset") return *value_ == "paper" ? "" : "no preset \"" + *value_ + "\"";
-    if (option == "--as-paper") return choose(*value_, p);
-    if (option == "--region") {
-      p.region = *value_ == "hull" ? Region::hull : Region::interior;
-      return one_of("interior", "hull");
+  std::string take(const Option& option, Promise& p) {
+    const std::string name = option.name;
+    switch (option.takes) {
+      case Takes::list:
+        return choose(*value_, p);
+      case Takes::sizes:
+        return read_size_field(*value_, p.size_field);
+      case Takes::word:
+        put(option, *value_ == option.words[1], p);
+        if (*value_ == option.words[0] || *value_ == option.words[1]) return {};
+        return name + " is " + option.words[0] + " or " + option.words[1] + ", not \"" + *value_ +
+               "\"";
+      case Takes::number:
+        return take_number(option, p);
+      default:
+        put(option, true, p);
+        return {};
     }
-    if (option == "--order") {
-      p.second_order = *value_ == "2";
-      return one_of("1", "2");
-    }
-    if (option == "--improve") p.improve = *value_ == "on";
-    return one_of("on", "off");
   }
 
-  std::string apply_number(const std::string& option, Promise& p) {
-    if (option == "--planar" && p.task == Task::mesh && *value_ == "auto") {
+  std::string take_number(const Option& option, Promise& p) {
+    if (option.target == decltype(option.target)(&Promise::planar) && *value_ == "auto") {
       p.planar = Promise::kPlanarAuto;
       return {};
     }
-    for (const Number& number : kNumbers) {
-      if (option != number.name || (number.tasks & bit_of(p.task)) == 0) continue;
-      double value = 0;
-      if (!parse_number(*value_, value) || !number.allows(value)) {
-        return option + ": \"" + *value_ + "\" is no number that it takes";
-      }
-      if (number.target != nullptr) p.*number.target = value;
-      return {};
+    double value = 0;
+    if (!parse_number(*value_, value) || !option.allows(value)) {
+      return std::string(option.name) + ": \"" + *value_ + "\" is not a number that it takes";
     }
-    return option + ": no such option";
+    if (const auto* number = std::get_if<double Promise::*>(&option.target)) p.** number = value;
+    return {};
   }
 
   std::vector<std::string> words_;

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "mesher/cli/test_option_values.h"
 #include "mesher/delmesher/option_table.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/files/sidecar.h"
@@ -146,6 +149,59 @@ TEST(Promises, AreReadFromCommandLines) {
                            "--order 1.5",
                            "plane --order 2"}) {
     EXPECT_NE(parse_promise(text, p), "") << text;
+  }
+}
+
+// The mesher's table and the oracles' own: the same names in the same jobs, and the same promises.
+struct JobOptions {
+  std::string job;
+  std::vector<delmesher::options::Value> values;
+};
+std::vector<JobOptions> jobs_with_promises() {
+  using delmesher::options::values_of;
+  return {{"mesh", values_of(delmesher::Options())},
+          {"cdt", values_of(delmesher::CdtOptions())},
+          {"plane", values_of(delmesher::PlaneOptions())},
+          {"improve", values_of(delmesher::ImproveOptions())}};
+}
+
+auto members(const Promise& p) {
+  return std::tuple(std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel,
+                               p.approximate, p.improve, p.region, p.chamfer_radius, p.max_edge,
+                               p.size_field.size(), p.size_growth, p.budget, p.max_vertices),
+                    std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment,
+                               p.filter_pairs, p.filter_chamfered, p.no_guard));
+}
+
+std::string argument(const delmesher::options::Value& option, const std::string& sizes) {
+  const std::string name = delmesher::options::argument_name(option.text.name);
+  if (option.is_paper()) return " --as-paper " + name;
+  if (option.kind == delmesher::options::Kind::sources) return " --" + name + " " + sizes;
+  return " --" + name + " " + delmesher::cli::another_value(option).first;
+}
+
+TEST(Promises, KnowTheOptionsOfEveryJobAndWhatTheyPromise) {
+  const std::string sizes = testing::TempDir() + "promised_sizes.txt";
+  std::ofstream(sizes) << "0 0 0 1\n";
+  for (const JobOptions& job : jobs_with_promises()) {
+    Promise none, all;
+    EXPECT_EQ(parse_promise(job.job, none), "");
+    for (const delmesher::options::Value& option : job.values) {
+      Promise one;
+      const std::string text = job.job + argument(option, sizes);
+      EXPECT_EQ(parse_promise(text, one), "") << text;
+      EXPECT_EQ(members(one) != members(none), option.text.promised) << text;
+    }
+    for (const JobOptions& other : jobs_with_promises()) {
+      for (const delmesher::options::Value& option : other.values) {
+        const bool known = std::any_of(job.values.begin(), job.values.end(), [&](const auto& mine) {
+          return mine.text.name == option.text.name;
+        });
+        const std::string text = job.job + argument(option, sizes);
+        if (known) continue;
+        EXPECT_NE(parse_promise(text, all), "") << text;
+      }
+    }
   }
 }
 
