@@ -1,18 +1,14 @@
-// Contracts an edge: one of its vertices goes, and its star is filled from the other. A vertex of a
-// facet goes to another one of that facet, a vertex of an input edge along that edge, so that the
-// surface is the same.
+// Vertices go where the tetrahedra around them stay good enough without (tetmesh/contract_edge.h).
 #pragma once
 
-#include <utility>
-#include <vector>
-
 #include "mesher/improve/state.h"
+#include "mesher/tetmesh/contract_edge.h"
 
 namespace delmesher::improve {
 
 class Collapse {
  public:
-  explicit Collapse(State& state) : state_(state) {}
+  explicit Collapse(State& state) : state_(state), operation_(state.mesh) {}
 
   // Takes v out, to the best of its neighbours, if all tetrahedra that change are good enough
   // afterwards (State::to_be_acceptable).
@@ -21,28 +17,21 @@ class Collapse {
   bool run(VertexId v, const Quality& least);
 
  private:
-  // A tetrahedron of the star without v: the corner that v has, and whether it counts.
-  struct Around {
-    TetId tet;
-    int corner;
-    bool counts;
+  struct Judge {
+    using Value = float;  // the score of the worst
+    const State& state;
+    const Quality& least;
+
+    static float nothing();
+    bool add(TetId t, int i, VertexId w, float& score) const;
+    static bool is_better(float score, float best) { return score > best; }
   };
 
   bool take_out(VertexId v, const Quality& least);
-  void look_around(VertexId v);
-  void find_targets(VertexId v);
-  void find_edges_on_surface(VertexId v);
-  bool stays_on_surface(VertexId v, VertexId w) const;
-  float score_after(VertexId w, const Quality& least, float enough);
   bool certain(VertexId v, VertexId w);
 
   State& state_;
-  std::vector<TetId> star_;
-  std::vector<Around> around_;  // those first that forbade targets
-  std::vector<VertexId> targets_;
-  std::vector<std::uint32_t> mark_;  // of find_targets()
-  std::uint32_t epoch_ = 0;
-  std::vector<std::pair<VertexId, FacetId>> edges_;  // of the surface
+  ContractEdge<Judge> operation_;
 };
 
 }  // namespace delmesher::improve

@@ -1,20 +1,17 @@
-// Removes an edge: the ring of tetrahedra around it is tetrahedrized anew, without the edge
-// (Shewchuk 2002, "Two discrete optimization algorithms for the topological improvement of
-// tetrahedral meshes"). An edge within a facet has a ring of two halves, each of which gets its
-// own; the two triangles of the facet beside it become the other two of their quadrilateral.
+// Edges go where the tetrahedra around them become better (tetmesh/remove_edge.h).
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "mesher/improve/state.h"
+#include "mesher/tetmesh/remove_edge.h"
 
 namespace delmesher::improve {
 
 class EdgeRemoval {
  public:
-  explicit EdgeRemoval(State& state) : state_(state) {}
+  explicit EdgeRemoval(State& state) : state_(state), operation_(state.mesh), judge_(state) {}
 
   // Removes edge i-j of t if that makes the worst tetrahedron of the ring better. `failed`: per
   // slot, the clock plus 1 when the edges of its tetrahedron had been tried; whatever tetrahedron
@@ -29,11 +26,6 @@ class EdgeRemoval {
   bool flip(TetId t, int i, int j);
 
  private:
-  // The longest ring that is considered.
-  static constexpr int kLongest = 9;
-  // The same for roundness, and its longest polygon: of longer ones hardly any becomes rounder.
-  static constexpr int kLongestForRoundness = 6, kLargestForRoundness = 4;
-
   // The measure by which fillings of a polygon are compared.
   enum class Aim : std::uint8_t { best_worst, roundest };
 
@@ -44,40 +36,77 @@ class EdgeRemoval {
     double roundness = 0;
   };
 
-  // A polygon of the ring's vertices, from the first to the last; between two triangles of a facet,
-  // or all around.
-  struct Polygon {
-    int size = 0;
-    RegionId region = kOutside;
-    std::array<VertexId, kLongest + 1> vertex;
-    // Of the best triangulation of vertices i to j: the third vertex of the triangle at i-j.
-    std::array<std::array<std::int8_t, kLongest + 1>, kLongest + 1> middle;
+  class Judge {
+   public:
+    using Value = Filling;
+    explicit Judge(const State& state) : state_(state) {}
+
+    // The edge, and what is known of earlier attempts.
+    void look_at(VertexId a, VertexId b, std::span<const std::uint32_t> failed) {
+      a_ = a;
+      b_ = b;
+      failed_ = failed;
+    }
+    // `least`: the quality that the new tetrahedra have to reach.
+    void want(Aim aim, const Quality& least) {
+      aim_ = aim;
+      least_ = least;
+    }
+    static double roundness(const Quality& q);
+
+    static Filling nothing() { return {kNotCounted, 0}; }
+    static Filling impossible() { return {}; }
+    static Filling both(const Filling& a, const Filling& b) {
+      return {worse(a.worst, b.worst), a.roundness + b.roundness};
+    }
+    static bool is_possible(const Filling& filling) { return filling.worst.dihedral > 0; }
+    // Has a-b been tried from t, and no tetrahedron at a or none at b has changed since?
+    bool is_known(TetId t) const {
+      return t < failed_.size() &&
+             (failed_[t] > state_.changed_at(a_) || failed_[t] > state_.changed_at(b_));
+    }
+    void begin(RegionId region) {
+      counts_ = state_.counts_in(region);
+      asked_ = counts_ ? least_ : Quality{};
+    }
+    bool may_join(VertexId v, VertexId w) const {
+      return !counts_ || !state_.too_long(state_.position(v), state_.position(w));
+    }
+    bool add(const Tet& tet, Filling& filling) const {
+      const Quality q = state_.quality_of(tet, asked_);
+      filling.worst = worse(filling.worst, q);
+      if (counts_ && aim_ == Aim::roundest) filling.roundness += roundness(q);
+      return true;
+    }
+    bool is_worth(const Filling& filling, const Filling& best) const {
+      return is_possible(filling) && State::reaches(filling.worst, asked_) &&
+             (aim_ != Aim::best_worst || is_better(filling, best));
+    }
+    bool is_better(const Filling& filling, const Filling& best) const {
+      return aim_ == Aim::best_worst ? state_.score(filling.worst) > state_.score(best.worst)
+                                     : !is_possible(best) || filling.roundness > best.roundness;
+    }
+    bool is_enough(const Filling&) const { return !counts_; }
+
+   private:
+    const State& state_;
+    VertexId a_ = 0, b_ = 0;
+    std::span<const std::uint32_t> failed_;
+    Aim aim_ = Aim::best_worst;
+    Quality least_, asked_;
+    bool counts_ = true;
   };
 
-  bool find_ring(TetId t, std::span<const std::uint32_t> failed);
-  bool is_known(TetId t, std::span<const std::uint32_t> failed) const;
-  bool collect_ring(TetId first, std::span<const std::uint32_t> failed);
-  TetId beginning(TetId t) const;
-  bool split_ring();
+  using Operation = RemoveEdge<Judge>;
+  // The same for roundness, and its longest polygon: of longer ones hardly any becomes rounder.
+  static constexpr int kLongestForRoundness = 6, kLargestForRoundness = 4;
+
+  bool find(TetId t, int i, int j, std::size_t longest, std::span<const std::uint32_t> failed);
   bool refill(double least_roundness);
-  Filling triangulate(Polygon& polygon);
-  bool improves(const Filling& filling, const Filling& best) const;
-  static double roundness(const Quality& q);
-  void collect(const Polygon& polygon);
 
   State& state_;
-  VertexId a_ = 0, b_ = 0;
-  std::vector<TetId> ring_;         // tetrahedra a, b, vertex[n], vertex[n + 1]
-  std::vector<VertexId> vertex_;    // one more than tetrahedra if the ring is open
-  std::vector<FacetId> facet_;      // of the face a, b, vertex[n]
-  std::size_t longest_ = kLongest;  // ring that is considered now
-  Aim aim_ = Aim::best_worst;
-  Quality least_;                   // the quality that the new tetrahedra have to reach
-  std::vector<std::size_t> walls_;  // numbers of the faces of the surface
-  std::vector<Polygon> polygons_;
-  std::array<std::array<Filling, kLongest + 1>, kLongest + 1> best_;  // of triangulate()
-  std::vector<CreatedTet> created_;
-  std::vector<SurfaceFace> faces_;
+  Operation operation_;
+  Judge judge_;
 };
 
 }  // namespace delmesher::improve

@@ -1,41 +1,39 @@
-// Removes the faces that are sandwiched between two vertices, one above them and one below, in
-// favour of an edge between the two (Shewchuk 2002, "Two discrete optimization algorithms for the
-// topological improvement of tetrahedral meshes"). One face is the 2-3 flip; more are the inverse
-// of edge removal.
+// Faces go where the tetrahedra beside them become better (tetmesh/remove_faces.h).
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include "mesher/improve/state.h"
+#include "mesher/tetmesh/remove_faces.h"
 
 namespace delmesher::improve {
 
 class FaceRemoval {
  public:
-  explicit FaceRemoval(State& state) : state_(state) {}
+  explicit FaceRemoval(State& state) : state_(state), operation_(state.mesh), judge_{state} {}
 
   // Removes face i of t, and the faces beside it with which the new tetrahedra are best, if the
   // worst of these is better than the worst of the tetrahedra that they replace.
   bool run(TetId t, int i);
 
  private:
-  // A face x, y, z between the two vertices, by the tetrahedra above and below; x to y is
-  // counter-clockwise seen from below.
-  struct Side {
-    TetId above, below;
-    VertexId x, y, z;
+  struct Judge {
+    using Value = Quality;
+    const State& state;
+
+    Quality value_of(const Tet& tet, RegionId) const { return state.quality_of(tet); }
+    static bool is_possible(const Quality& q) { return q.dihedral > 0; }
+    bool is_enough(const Quality& q) const { return state.good(q); }
+    bool is_better(const Quality& a, const Quality& b) const {
+      return state.score(a) > state.score(b);
+    }
+    static Quality both(const Quality& a, const Quality& b) { return worse(a, b); }
+    bool may_join(VertexId v, VertexId w) const {
+      return !state.too_long(state.position(v), state.position(w));
+    }
   };
 
-  Quality fill(const Side& side);
-  void create(const CreatedTet& tet, const Quality& quality);
-  bool beyond(const Side& side, Side& next) const;
-
   State& state_;
-  VertexId above_ = 0, below_ = 0;
-  std::vector<TetId> removed_;
-  std::vector<CreatedTet> created_;
-  std::vector<Quality> quality_;  // of the tetrahedra created
+  RemoveFaces<Judge> operation_;
+  Judge judge_;
 };
 
 }  // namespace delmesher::improve

@@ -117,6 +117,14 @@ void State::note_change(TetId t) {
   for (const VertexId v : mesh.tet(t)) changed_at_[v] = clock_;
 }
 
+bool State::accept(const Change& change) {
+  for (const CreatedTet& tet : change.created) {
+    if (!is_positive(tet.vertices)) return false;
+  }
+  replace(change.removed, change.created, change.faces);
+  return true;
+}
+
 void State::replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
                     std::span<const SurfaceFace> faces) {
   ++clock_;

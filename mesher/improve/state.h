@@ -16,16 +16,9 @@
 #include "mesher/surface/facet_locator.h"
 #include "mesher/surface/topology.h"
 #include "mesher/tetmesh/mesh_topology.h"
+#include "mesher/tetmesh/mobility.h"
 
 namespace delmesher::improve {
-
-// Where a vertex may go.
-enum class Mobility : std::uint8_t {
-  fixed,     // nowhere: a vertex of the input or of the hull, or on an edge with two parameters
-  on_line,   // along its edge of the input
-  in_plane,  // within its facet
-  free       // anywhere in its star
-};
 
 // False if it is zero.
 inline bool to_unit_length(Vec3& x) {
@@ -156,6 +149,8 @@ class State {
   }
 
   // --- changes
+  // Makes the change if all that it creates is positive.
+  bool accept(const Change& change);
   void replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
                std::span<const SurfaceFace> faces);
   void contract(VertexId v, VertexId w, std::span<const TetId> star);

@@ -28,10 +28,6 @@ std::array<std::uint32_t, 2> opposite_edge(const Tet& t, int i, int j) {
   return {t[face[(k + 2) % 3]], t[face[(k + 1) % 3]]};
 }
 
-bool contains(const std::vector<std::uint32_t>& list, std::uint32_t value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 }  // namespace
 
 bool LocalOperations::fix(std::uint32_t t, bool exact_too) {
@@ -57,46 +53,17 @@ bool LocalOperations::positive(const Tet& t) {
 }
 
 bool LocalOperations::replace() {
-  for (const std::uint32_t t : removed_) {
-    if (mesh_.region(t) != mesh_.region(removed_[0])) return false;
-  }
-  if (clashes()) return false;
-  mesh_.replace(removed_, created_);
-  return true;
+  Change change{removed_, {}, {}};
+  for (const Tet& t : created_) change.created.push_back({t, mesh_.region(removed_[0])});
+  return mesh_.accept(change);
 }
 
-// Would the operation create an edge or an inner face that exists already? Then the mesh would not
-// be a complex any more, whatever the signs say.
-bool LocalOperations::clashes() const {
-  std::vector<std::array<std::uint32_t, 3>> faces;
-  for (const Tet& t : created_) {
+bool LocalOperations::is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  for (const std::uint32_t t : mesh_.star(a)) {
+    if (!has(mesh_.tet(t), b) || !has(mesh_.tet(t), c)) continue;
     for (int i = 0; i < 4; ++i) {
-      std::array<std::uint32_t, 3> face{t[kInward[i][0]], t[kInward[i][1]], t[kInward[i][2]]};
-      std::sort(face.begin(), face.end());
-      faces.push_back(face);
-      for (int j = i + 1; j < 4; ++j) {
-        const std::uint32_t edge[2] = {t[i], t[j]};
-        const auto known = [&](std::uint32_t r) {
-          return has(mesh_.tet(r), edge[0]) && has(mesh_.tet(r), edge[1]);
-        };
-        if (std::none_of(removed_.begin(), removed_.end(), known) && has_element_elsewhere(edge)) {
-          return true;
-        }
-      }
-    }
-  }
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    if (faces[i] == faces[i - 1] && has_element_elsewhere(faces[i])) return true;
-  }
-  return false;
-}
-
-bool LocalOperations::has_element_elsewhere(std::span<const std::uint32_t> vertices) const {
-  for (const std::uint32_t t : mesh_.star(vertices[0])) {
-    const auto in_tet = [&](std::uint32_t v) { return has(mesh_.tet(t), v); };
-    if (std::all_of(vertices.begin(), vertices.end(), in_tet) && !contains(removed_, t)) {
-      return true;
+      const std::uint32_t v = mesh_.tet(t)[i];
+      if (v != a && v != b && v != c) return mesh_.topology().facet(t, i) != kNone;
     }
   }
   return false;
@@ -120,7 +87,7 @@ bool LocalOperations::find_ring(std::uint32_t t, int i, int j) {
   while (true) {
     const auto next = std::find_if(steps.begin(), steps.end(),
                                    [&](const auto& s) { return s[0] == ring_.back(); });
-    if (next == steps.end() || mesh_.is_boundary(a, b, ring_.back())) return false;
+    if (next == steps.end() || is_boundary(a, b, ring_.back())) return false;
     if ((*next)[1] == ring_[0]) break;
     ring_.push_back((*next)[1]);
     if (ring_.size() > steps.size()) return false;
@@ -169,7 +136,7 @@ bool LocalOperations::remove_edge(std::uint32_t t, int i, int j) {
 bool LocalOperations::remove_face(std::uint32_t t, int i) {
   const Tet& q = mesh_.tet(t);
   const std::uint32_t a = q[kInward[i][0]], b = q[kInward[i][1]], c = q[kInward[i][2]], d = q[i];
-  if (mesh_.is_boundary(a, b, c)) return false;
+  if (is_boundary(a, b, c)) return false;
   for (const std::uint32_t u : mesh_.star(a)) {
     const Tet& r = mesh_.tet(u);
     if (u == t || !has(r, b) || !has(r, c)) continue;

@@ -30,8 +30,7 @@ class LocalOperations {
   bool collapse_to(std::uint32_t v, std::uint32_t w);
   bool positive(const Tet& vertices);
   bool replace();
-  bool clashes() const;
-  bool has_element_elsewhere(std::span<const std::uint32_t> vertices) const;
+  bool is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
   RoundedMesh& mesh_;
   Predicates exact_;

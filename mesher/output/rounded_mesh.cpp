@@ -1,6 +1,8 @@
 #include "mesher/output/rounded_mesh.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "mesher/base/check.h"
 #include "mesher/base/face_key.h"
@@ -10,12 +12,9 @@
 namespace delmesher::output {
 namespace {
 
-template <typename T>
-void erase_sorted(std::vector<T>& sorted, T value) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
-  DELMESHER_CHECK(at != sorted.end() && *at == value,
-                  "a tetrahedron is not in the star of its vertex");
-  sorted.erase(at);
+template <class List>
+bool has(const List& list, std::uint32_t value) {
+  return std::ranges::find(list, value) != list.end();
 }
 
 }  // namespace
@@ -56,14 +55,14 @@ void RoundedMesh::number_vertices() {
 
 void RoundedMesh::certify(Control& control) {
   sign_.resize(tet_.size());
-  for (std::uint32_t t = 0; t < tet_.size(); ++t) {
+  for (TetId t = 0; t < tet_.size(); ++t) {
     control.poll(0, static_cast<double>(t) / static_cast<double>(tet_.size()));
     sign_[t] = 1;
     set_sign(t, sign_of(tet_[t]));
   }
 }
 
-void RoundedMesh::set_sign(std::uint32_t t, int sign) {
+void RoundedMesh::set_sign(TetId t, int sign) {
   if (sign_[t] <= 0) bad_.erase(t);
   sign_[t] = static_cast<std::int8_t>(sign);
   if (sign <= 0) bad_.insert(t);
@@ -74,9 +73,9 @@ int RoundedMesh::sign_of(const Tet& t) {
   return orient3d_sign(position_[t[0]], position_[t[1]], position_[t[2]], position_[t[3]]);
 }
 
-int RoundedMesh::sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p) {
+int RoundedMesh::sign_at(TetId t, std::uint32_t v, const Vec3& p) {
   const Vec3* x[4];
-  for (int i = 0; i < 4; ++i) x[i] = tet_[t][i] == v ? &p : &position_[tet_[t][i]];
+  for (int i = 0; i < 4; ++i) x[i] = tet(t)[i] == v ? &p : &position_[tet(t)[i]];
   ++signs_;
   return orient3d_sign(*x[0], *x[1], *x[2], *x[3]);
 }
@@ -102,63 +101,66 @@ std::vector<std::vector<std::uint32_t>> RoundedMesh::coincident() const {
 
 void RoundedMesh::prepare_repairs() {
   changed_at_.assign(vertices(), 0);
-  star_begin_.assign(vertices() + 1, 0);
-  for (const Tet& t : tet_) {
-    for (const std::uint32_t v : t) ++star_begin_[v + 1];
-  }
-  for (std::size_t v = 0; v < vertices(); ++v) star_begin_[v + 1] += star_begin_[v];
-  star_tets_.resize(4 * tet_.size());
-  std::vector<std::uint32_t> next(star_begin_.begin(), star_begin_.end() - 1);
-  for (std::uint32_t t = 0; t < tet_.size(); ++t) {
-    for (const std::uint32_t v : tet_[t]) star_tets_[next[v]++] = t;
-  }
   const auto local = [&](VertexId v) {
-    const auto at = std::lower_bound(store_id_.begin(), store_id_.end(), v);
+    const auto at = std::ranges::lower_bound(store_id_, v);
     DELMESHER_CHECK(at != store_id_.end() && *at == v, "a boundary vertex is in no tetrahedron");
     return static_cast<std::uint32_t>(at - store_id_.begin());
   };
-  boundary_.clear();
-  boundary_.reserve(input_.mesh.boundary.size());
+  std::vector<SurfaceFace> boundary = input_.mesh.boundary;
+  for (SurfaceFace& face : boundary) {
+    for (VertexId& v : face.vertices) v = local(v);
+  }
+  topology_.emplace(std::move(tet_), region_, boundary, vertices());
+  region_.clear();
+  find_pinched();
+}
+
+// Only the refined mesh has such vertices (--approximate), where what is inside touches itself.
+void RoundedMesh::find_pinched() {
+  std::vector<std::uint32_t> degree(vertices(), 0);
+  for (TetId t = 0; t < slots(); ++t) {
+    for (const std::uint32_t v : tet(t)) ++degree[v];
+  }
+  for (std::uint32_t v = 0; v < vertices(); ++v) {
+    if (star(v).size() < degree[v]) pinched_[v];
+  }
+  for (TetId t = 0; t < slots() && !pinched_.empty(); ++t) {
+    for (const std::uint32_t v : tet(t)) {
+      if (const auto at = pinched_.find(v); at != pinched_.end()) at->second.push_back(t);
+    }
+  }
+}
+
+double RoundedMesh::largest_of_surface() const {
+  double largest = 0;
+  const auto take = [&](VertexId point) {
+    largest = std::max(largest, largest_component(frame().given(placed(point))));
+  };
   for (const SurfaceFace& face : input_.mesh.boundary) {
-    const auto& [a, b, c] = face.vertices;
-    boundary_.push_back(undirected_face(local(a), local(b), local(c)));
+    for (const VertexId v : face.vertices) take(v);
   }
-  std::sort(boundary_.begin(), boundary_.end());
+  for (std::uint32_t v = 0; input_.mesh.boundary.empty() && v < vertices(); ++v) {
+    if (fixed(v) || on_surface(v)) take(store_id_[v]);
+  }
+  return largest;
 }
 
-std::span<const std::uint32_t> RoundedMesh::star(std::uint32_t v) const {
-  if (const auto changed = changed_stars_.find(v); changed != changed_stars_.end()) {
-    return changed->second;
-  }
-  return {star_tets_.data() + star_begin_[v], star_tets_.data() + star_begin_[v + 1]};
-}
-
-std::vector<std::uint32_t>& RoundedMesh::editable_star(std::uint32_t v) {
-  const auto [at, fresh] = changed_stars_.try_emplace(v);
-  if (fresh) {
-    at->second.assign(star_tets_.begin() + star_begin_[v], star_tets_.begin() + star_begin_[v + 1]);
-  }
-  return at->second;
+std::vector<TetId> RoundedMesh::star(std::uint32_t v) const {
+  if (const auto pinched = pinched_.find(v); pinched != pinched_.end()) return pinched->second;
+  std::vector<TetId> star;
+  if (topology_->incident(v) == kNone) return star;
+  topology_->star(v, star);
+  std::ranges::sort(star);
+  return star;
 }
 
 bool RoundedMesh::is_enclosed(std::uint32_t v) const {
-  std::vector<std::array<std::uint32_t, 3>> faces;
-  for (const std::uint32_t t : star(v)) {
+  return std::ranges::all_of(star(v), [&](TetId t) {
     for (int i = 0; i < 4; ++i) {
-      if (tet_[t][i] == v) continue;
-      faces.push_back(
-          undirected_face(tet_[t][(i + 1) % 4], tet_[t][(i + 2) % 4], tet_[t][(i + 3) % 4]));
+      if (tet(t)[i] != v && topology_->neighbor(t, i) == kNone) return false;
     }
-  }
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t i = 0; i < faces.size(); i += 2) {
-    if (i + 1 == faces.size() || faces[i] != faces[i + 1]) return false;
-  }
-  return true;
-}
-
-bool RoundedMesh::is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  return std::binary_search(boundary_.begin(), boundary_.end(), undirected_face(a, b, c));
+    return true;
+  });
 }
 
 bool RoundedMesh::occupied(const Vec3& p) const {
@@ -178,52 +180,73 @@ void RoundedMesh::move(std::uint32_t v, const Vec3& p) {
   }
   position_[v] = p;
   if (p != home(v)) ++moved_to_[p];
-  for (const std::uint32_t t : star(v)) set_sign(t, sign_of(tet_[t]));
+  for (const TetId t : star(v)) set_sign(t, sign_of(tet(t)));
 }
 
 void RoundedMesh::note_change(std::uint32_t v) {
   ++clock_;
-  for (const std::uint32_t t : star(v)) {
-    for (const std::uint32_t w : tet_[t]) changed_at_[w] = clock_;
+  for (const TetId t : star(v)) {
+    for (const std::uint32_t w : tet(t)) changed_at_[w] = clock_;
   }
 }
 
-std::uint32_t RoundedMesh::last_change(std::uint32_t t) const {
+std::uint32_t RoundedMesh::last_change(TetId t) const {
   std::uint32_t last = 0;
-  for (const std::uint32_t v : tet_[t]) last = std::max(last, changed_at_[v]);
+  for (const std::uint32_t v : tet(t)) last = std::max(last, changed_at_[v]);
   return last;
 }
 
-void RoundedMesh::replace(std::span<const std::uint32_t> removed, std::span<const Tet> created) {
+bool RoundedMesh::accept(const Change& change) {
+  for (const TetId t : change.removed) {
+    if (region(t) != region(change.removed[0])) return false;
+    for (const std::uint32_t v : tet(t)) {
+      if (pinched_.contains(v)) return false;
+    }
+  }
+  if (clashes(change)) return false;
   ++clock_;
-  const RegionId region = region_[removed[0]];
-  std::vector<std::uint32_t> free(removed.begin(), removed.end());
-  std::sort(free.begin(), free.end(), std::greater<>());
-  for (const std::uint32_t t : free) {
-    for (const std::uint32_t v : tet_[t]) {
-      erase_sorted(editable_star(v), t);
-      changed_at_[v] = clock_;
-    }
+  std::vector<TetId> removed = change.removed;
+  std::ranges::sort(removed,
+                    std::greater<>());  // so that the first slots are used first
+  for (const TetId t : removed) {
+    for (const std::uint32_t v : tet(t)) changed_at_[v] = clock_;
     set_sign(t, 1);
-    tet_[t].fill(kNone);
   }
-  for (const Tet& vertices : created) {
-    auto t = static_cast<std::uint32_t>(tet_.size());
-    if (free.empty()) {
-      tet_.emplace_back();
-      region_.push_back(region);
-      sign_.push_back(1);
-    } else {
-      t = free.back();
-      free.pop_back();
-    }
-    tet_[t] = vertices;
-    set_sign(t, sign_of(vertices));
-    for (const std::uint32_t v : vertices) {
-      auto& slots = editable_star(v);
-      slots.insert(std::lower_bound(slots.begin(), slots.end(), t), t);
+  topology_->replace(removed, change.created, change.faces);
+  topology_->leave_gaps();
+  sign_.resize(slots(), 1);
+  for (const TetId t : topology_->created()) set_sign(t, sign_of(tet(t)));
+  return true;
+}
+
+bool RoundedMesh::clashes(const Change& change) const {
+  std::vector<std::array<VertexId, 3>> faces;
+  for (const auto& [t, region] : change.created) {
+    for (int i = 0; i < 4; ++i) {
+      faces.push_back(undirected_face(t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]));
+      for (int j = i + 1; j < 4; ++j) {
+        const VertexId edge[2] = {t[i], t[j]};
+        const auto known = [&](TetId r) { return has(tet(r), edge[0]) && has(tet(r), edge[1]); };
+        if (std::ranges::none_of(change.removed, known) &&
+            has_element_elsewhere(edge, change.removed)) {
+          return true;
+        }
+      }
     }
   }
+  std::ranges::sort(faces);
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    if (faces[i] == faces[i - 1] && has_element_elsewhere(faces[i], change.removed)) return true;
+  }
+  return false;
+}
+
+bool RoundedMesh::has_element_elsewhere(std::span<const VertexId> vertices,
+                                        std::span<const TetId> removed) const {
+  return std::ranges::any_of(star(vertices[0]), [&](TetId t) {
+    return !has(removed, t) &&
+           std::ranges::all_of(vertices, [&](VertexId v) { return has(tet(t), v); });
+  });
 }
 
 }  // namespace delmesher::output

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "mesher/base/face_key.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/output/rounded_mesh.h"
 #include "mesher/output/vertex_moves.h"
@@ -411,9 +412,11 @@ TEST(Rounding, WhatCannotMoveIsCounted) {
   ASSERT_GT(before, 0U);
   // With every face to be kept, there are no flips either.
   s.input.mesh.boundary.clear();
+  std::set<Face> faces;
   for (const Tet& t : s.input.mesh.tetrahedra) {
-    for (const auto& f : kFace) s.input.mesh.boundary.push_back({{t[f[0]], t[f[1]], t[f[2]]}, 0});
+    for (const auto& f : kFace) faces.insert(undirected_face(t[f[0]], t[f[1]], t[f[2]]));
   }
+  for (const Face& f : faces) s.input.mesh.boundary.push_back({f, 0});
   const RoundingResult r = run(s);
   EXPECT_EQ(r.repaired, 0U);
   EXPECT_EQ(r.inverted + r.flat, before);

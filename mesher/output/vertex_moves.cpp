@@ -121,19 +121,7 @@ Vec3 deepest_point(const StarFrame& frame) {
 }  // namespace
 
 VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllChainsBudget) {
-  // The box around the surface is larger and says nothing about the surface's scale; where there
-  // are no faces of the surface, what is held in place says it.
-  double largest = 0;
-  const auto take = [&](std::uint32_t v) {
-    largest = std::max(largest, largest_component(mesh.frame().given(mesh.home(v))));
-  };
-  for (const auto& face : mesh.boundary()) {
-    for (const std::uint32_t v : face) take(v);
-  }
-  for (std::uint32_t v = 0; mesh.boundary().empty() && v < mesh.vertices(); ++v) {
-    if (mesh.fixed(v) || mesh.on_surface(v)) take(v);
-  }
-  surface_unit_ = unit_in_last_place(largest);
+  surface_unit_ = unit_in_last_place(mesh.largest_of_surface());
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {

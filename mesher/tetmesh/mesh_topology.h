@@ -26,6 +26,13 @@ struct CreatedTet {
   RegionId region;
 };
 
+// What a local operation does: tetrahedra are replaced by others with the same outer faces.
+struct Change {
+  std::vector<TetId> removed;
+  std::vector<CreatedTet> created;
+  std::vector<SurfaceFace> faces;  // of the surface, between those created
+};
+
 // The two vertices of a tetrahedron other than i and j, such that (i, j, x, y) is an even
 // permutation.
 inline std::array<int, 2> opposite_edge(int i, int j) {
@@ -54,6 +61,12 @@ class MeshTopology {
   int mirror(TetId t, int i) const { return static_cast<int>(neighbor_[t][i] & 3U); }
   // The facet that face i of t tiles, kNone if it is not on the surface.
   FacetId facet(TetId t, int i) const { return facet_[t][i]; }
+  // Of the two sides of face i of t, on the surface, is it this one that tells of it? The one of
+  // the larger region does, so that it is never the outside.
+  bool is_told_from(TetId t, int i) const {
+    const TetId u = neighbor(t, i);
+    return u == kNone || region_[u] < region_[t] || (region_[u] == region_[t] && u < t);
+  }
   // Some tetrahedron at v; kNone if there is none any more.
   TetId incident(VertexId v) const { return incident_[v]; }
   std::size_t vertices() const { return incident_.size(); }
@@ -78,6 +91,8 @@ class MeshTopology {
   void replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
                std::span<const SurfaceFace> faces);
   std::span<const TetId> created() const { return created_; }
+  // Slots that are free now stay so.
+  void leave_gaps() { free_.clear(); }
 
   // Throws InternalError at the first invariant that does not hold.
   void validate() const;

@@ -64,9 +64,6 @@ MeshTopology topology_of(ConformingMesh mesh, std::span<const VertexId> point, s
 }
 
 ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point) {
-  const auto is_told_from = [&](TetId t, TetId u) {
-    return u == kNone || std::pair(topology.region(u), u) < std::pair(topology.region(t), t);
-  };
   ConformingMesh mesh;
   for (TetId t = 0; t < topology.slots(); ++t) {
     if (!topology.alive(t)) continue;
@@ -75,7 +72,7 @@ ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> p
     mesh.tetrahedra.push_back(v);
     mesh.region.push_back(topology.region(t));
     for (int i = 0; i < 4; ++i) {
-      if (topology.facet(t, i) == kNone || !is_told_from(t, topology.neighbor(t, i))) continue;
+      if (topology.facet(t, i) == kNone || !topology.is_told_from(t, i)) continue;
       mesh.boundary.push_back(
           {{v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]}, topology.facet(t, i)});
     }

@@ -20,8 +20,7 @@ std::vector<VertexId> vertices_in_order(const ConformingMesh& mesh, const PointS
 // which order they were given.
 MeshTopology topology_of(ConformingMesh mesh, std::span<const VertexId> point, std::size_t points);
 
-// With points of the store again. A face of the surface is seen from its region that is not
-// outside, or else from that of the smaller number.
+// With points of the store again. A face of the surface is seen from the side that tells of it.
 ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point);
 
 }  // namespace delmesher::tetmesh
