@@ -1,11 +1,13 @@
 #include "oracles/verdict/edge_sizes.h"
 
 #include <algorithm>
-#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 
 #include "oracles/base/text_reader.h"
 
@@ -26,10 +28,38 @@ double distance_between(const Position& p, const Position& a, const Position& b)
                     a[2] + share * (b[2] - a[2]) - p[2]);
 }
 
+// In no locale, and finite. A number too small for a double is 0.
+bool parse_number(std::string_view word, double& value) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::invalid_argument || end != word.data() + word.size()) return false;
+  if (error == std::errc::result_out_of_range)
+    value = std::strtod(std::string(word).c_str(), nullptr);
+  return std::isfinite(value);
+}
+
 bool is_number(const std::string& word) {
-  char* end = nullptr;
-  std::strtod(word.c_str(), &end);
-  return !word.empty() && *end == '\0';
+  double value = 0;
+  return parse_number(word, value);
+}
+
+// Without a byte order mark; lines of all systems end alike.
+void unify_lines(std::string& text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  std::replace(text.begin(), text.end(), '\r', '\n');
+}
+
+// Spaces for the names of views and for comments, which may hold any brackets.
+void blank_words(std::string& text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool name = text[at] == '"';
+    if (!name && text.compare(at, 2, "//") != 0) continue;
+    std::size_t end = text.find_first_of(name ? "\"\n" : "\n", at + 1);
+    end = std::min(end, text.size() - 1);
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
+              text.begin() + static_cast<std::ptrdiff_t>(end) + 1, ' ');
+    at = end;
+  }
 }
 
 // Whatever is between numbers in lines becomes a space.
@@ -53,8 +83,9 @@ std::string read_lines(const std::string& text, std::vector<SizeSource>& sources
     first = false;
     if (is_head) continue;
     if (!numbers || words.size() != 4) return "a line is not X Y Z SIZE: " + line;
-    sources.push_back(
-        {{std::stod(words[0]), std::stod(words[1]), std::stod(words[2])}, std::stod(words[3])});
+    double x[4] = {};
+    for (std::size_t k = 0; k < 4; ++k) parse_number(words[k], x[k]);
+    sources.push_back({{x[0], x[1], x[2]}, x[3]});
   }
   return {};
 }
@@ -150,8 +181,12 @@ std::string read_size_field(const std::string& path, std::vector<SizeSource>& so
   } catch (const ReadError& error) {
     return error.what();
   }
-  const auto first = text.find_first_not_of(" \t\r\n");
-  const bool view = first != std::string::npos && text.compare(first, 4, "View") == 0;
+  unify_lines(text);
+  std::istringstream words(text);
+  std::string first;
+  words >> first;
+  const bool view = first == "View";
+  if (view) blank_words(text);
   std::string why = view ? read_view(text, sources) : read_lines(text, sources);
   if (why.empty() && sources.empty()) why = "no sizes in it";
   for (const SizeSource& source : sources) {

@@ -18,6 +18,7 @@
 #include "oracles/files/mesh_file.h"
 #include "oracles/files/surface_file.h"
 #include "oracles/files/vtu_text.h"
+#include "oracles/verdict/edge_sizes.h"
 #include "property_tests/little_memory.h"
 #include "property_tests/oracle_units/helpers.h"
 
@@ -27,6 +28,34 @@ namespace {
 using namespace oracles;  // NOLINT
 using delmesher::io::packed_by_zlib;
 using delmesher::io::Wrapping;
+
+// What `mesh` takes as a size field, the verification takes, with the same sources.
+TEST(SizeFields, AreReadAsTheMesherReadsThem) {
+  using Sources = std::vector<std::array<double, 4>>;
+  const auto read = [](const std::string& text) {
+    std::vector<delmesher::SizeSource> sources;
+    const std::string why = read_size_field(written("sizes.txt", text), sources);
+    EXPECT_EQ(why, "") << text;
+    Sources all;
+    for (const auto& [at, size] : sources) all.push_back({at[0], at[1], at[2], size});
+    return all;
+  };
+  const Sources one = {{1, 2, 3, 0.5}}, two = {{1, 2, 3, 0.5}, {4, 5, 6, 1}};
+  for (const char* text :
+       {"1 2 3 0.5\n4 5 6 1\n", "1 2 3 0.5\r4 5 6 1\r", "1,2,3,0.5\r\n4,5,6,1\r\n",
+        "\xef\xbb\xbf"
+        "1 2 3 0.5\n4 5 6 1",
+        "x y z h\n1 2 3 0.5\n4 5 6 1\n", "+1 +2 +3 +.5\n4 5 6 1 # here\n",
+        "View \"a\" {SP(1,2,3){0.5};};View \"b (2) {\" {SP(4,5,6){1};};",
+        "View \"a\" { // was (7,8,9){1}\nSP(1,2,3){0.5};\nSP(4,5,6){1, 2};};"}) {
+    EXPECT_EQ(read(text), two) << text;
+  }
+  for (const char* text : {"Viewed y z h\n1 2 3 0.5\n", "View \"a{(1,2,3){4}\" {SP(1,2,3){0.5};};",
+                           "View \"a\" // {(9,9,9){9}\n{SP(1,2,3){0.5};};"}) {
+    EXPECT_EQ(read(text), one) << text;
+  }
+  EXPECT_EQ(read("1e-400 2 3 0.5\n"), (Sources{{0, 2, 3, 0.5}}));
+}
 
 // In version 2.2 every element has a group, and 0 stands for none; then its entity tells.
 TEST(GmshText, AGroupOfZeroIsNone) {
