@@ -11,6 +11,7 @@
 #include "oracles/base/box.h"
 #include "oracles/base/triangle_distance.h"
 #include "oracles/base/vectors.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -183,12 +184,22 @@ OracleReport check_distances(const Polyhedron& input, const Polyhedron& own, dou
   return report;
 }
 
+// Turns the shells that are inside out: parity decides what is inside. Empty on success, else why
+// the surface bounds no solid.
+std::string turn_outwards(Polyhedron& surface) {
+  ExactPoints points;
+  InputSurface turned;
+  std::string why = points.assign(surface.vertices);
+  if (why.empty()) why = turned.assign(surface, points);
+  if (why.empty()) surface.triangles = turned.triangles();
+  return why;
+}
+
+// Of surfaces that are oriented outwards.
 OracleReport check_volumes(const Polyhedron& input, const Polyhedron& own, double allowed) {
   OracleReport report("envelope-volume", "volumes");
   report.checked = 2;
-  Extent given = extent_of(input);
-  const Extent made = extent_of(own);
-  given.volume = std::fabs(given.volume);  // a surface that is inside out bounds the same solid
+  const Extent given = extent_of(input), made = extent_of(own);
   report.figures.emplace_back("of the mesh", made.volume);
   report.figures.emplace_back("of the input", given.volume);
   if (std::fabs(made.volume - given.volume) > 2 * allowed * std::max(given.area, made.area)) {
@@ -303,6 +314,7 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   }
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);
+  if (std::string why = turn_outwards(given); !why.empty()) return why;
   const double diagonal = box_of(given.vertices).diagonal(), allowed = share * diagonal;
   for (OracleReport oracle : {check_distances(given, own, allowed, exponent, report.deviation),
                               check_volumes(given, own, allowed)}) {

@@ -52,6 +52,21 @@ TEST(Envelope, IsOfASurfaceWithTriangles) {
   EXPECT_EQ(verify_envelope({}, cube_mesh(), kShare, {}, report), "the surface has no triangles");
 }
 
+TEST(Envelope, ShellsMayBeInsideOut) {
+  Polyhedron two = cube();
+  MeshFile mesh = cube_mesh();
+  for (const Position& vertex : cube().vertices) {
+    two.vertices.push_back({vertex[0] + 3, vertex[1], vertex[2]});
+  }
+  for (const auto& [a, b, c] : cube().triangles) two.triangles.push_back({a + 8, c + 8, b + 8});
+  EXPECT_EQ(failed_first(judged(mesh, two)), "envelope");
+  mesh.vertices = two.vertices;
+  for (const auto& [a, b, c, d] : cube_mesh().tetrahedra) {
+    mesh.tetrahedra.push_back({a + 8, b + 8, c + 8, d + 8});
+  }
+  EXPECT_EQ(failed_first(judged(mesh, two)), "");
+}
+
 TEST(Envelope, DistancesAreBoundedFromAboveAndNearlySo) {
   Polyhedron spiked = cube();
   spiked.vertices.push_back({0.5, 0.6, 1.25});  // stands on the face z = 1, seen by no corner of it
