@@ -8,8 +8,8 @@ namespace tetproof {
 namespace {
 
 int list_families() {
-  for (const Family& family : families()) {
-    fmt::print("{:<16} {}\n", family.name, family.description);
+  for (const auto* group : {&families(), &sampled_families()}) {
+    for (const Family& family : *group) fmt::print("{:<16} {}\n", family.name, family.description);
   }
   return 0;
 }

@@ -35,8 +35,12 @@ std::vector<Family> tied_families();
 // Other surfaces, changed: moved, coarse, scaled, damaged, edited; rotated and noisy ones.
 std::vector<Family> derived_families();
 
-// All of them.
+// All of them, with members small enough for quick tests.
 const std::vector<Family>& families();
+// Zeros of functions on grids, as images and implicit models give them: a thousand to a million
+// triangles. Only by name.
+const std::vector<Family>& sampled_families();
+// Of both.
 const Family* find_family(const std::string& name);
 
 }  // namespace tetproof

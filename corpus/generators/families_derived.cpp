@@ -131,9 +131,12 @@ const std::vector<Family>& families() {
 }
 
 const Family* find_family(const std::string& name) {
-  const auto at = std::find_if(families().begin(), families().end(),
-                               [&](const Family& f) { return name == f.name; });
-  return at == families().end() ? nullptr : &*at;
+  for (const auto* group : {&families(), &sampled_families()}) {
+    const auto at =
+        std::find_if(group->begin(), group->end(), [&](const Family& f) { return name == f.name; });
+    if (at != group->end()) return &*at;
+  }
+  return nullptr;
 }
 
 }  // namespace tetproof
