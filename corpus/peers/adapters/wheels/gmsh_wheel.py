@@ -42,6 +42,8 @@ def mesh(model, words):
     said = [line for line in gmsh.logger.get() if line.startswith("Error")]
     if said:
         raise contract.Refused(said[0])
+    if not numpy.isin(corners, tags).all():
+        raise contract.Refused("its tetrahedra have nodes that it does not list")
     place = numpy.zeros(int(tags.max()) + 1, dtype=numpy.int64)
     place[tags] = numpy.arange(len(tags))
     return coordinates.reshape(-1, 3), place[corners].reshape(-1, 4), seconds
