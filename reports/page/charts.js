@@ -111,7 +111,7 @@ const charts = (() => {
       scale.title.color = ink;
       scale.grid = { color: line };
     }
-    chart.update("none");
+    chart.update();  // with "none" Chart.js 3 keeps the colours that bars had
   }
 
   // Gives a frame the room that its chart will need.
