@@ -125,6 +125,14 @@ class Pages(unittest.TestCase):
         self.page(self.campaign(row("fan-1", "tetgen", min_dihedral=1, inside={"tetrahedra": 7, "min_dihedral": 20.5})))
         self.assertEqual([self.runs()[0][f] for f in ("tetrahedra", "min_dihedral", "mean_gamma")], ["7", "20.5", ""])
 
+    def test_the_oracles_tell_what_is_inside_if_the_file_does_not(self):
+        figures = {"smallest dihedral angle": 20.5, "1 % quantile of smallest dihedral angles": 21, "smallest face angle": 22, "mean gamma": 0.5}
+        whole = row("fan-1", "published-e4", tetrahedra=90, min_dihedral=1)
+        whole["verdict_json"] = json.dumps({"verdict": "exact", "oracles": [
+            {"name": "angles", "checked": 7, "checked_what": "tetrahedra inside", "figures": figures}]})
+        self.page(self.campaign(whole))
+        self.assertEqual([(r["tetrahedra"], r["min_dihedral"]) for r in self.runs()], [("7", "20.5")])
+
     def test_a_wrong_mesh_has_no_angles(self):
         self.page(self.campaign(row("fan-1", "netgen", "wrong-result", "verify: broken: conformity: edge\n1-2")))
         self.assertEqual([self.runs()[0][f] for f in ("tetrahedra", "min_dihedral", "reason")],
