@@ -372,7 +372,7 @@ std::vector<Lie> inner_lies() {
        [](Told& t) {
          t.mesh.vertices.push_back({0.5, 0.5, 0.5});
        }},
-      {"a coordinate is no number", "complex",
+      {"a coordinate is not a number", "complex",
        [](Told& t) { t.mesh.vertices[0][0] = std::numeric_limits<double>::quiet_NaN(); }},
       {"a corner is out of range", "complex",
        [](Told& t) { t.mesh.tetrahedra[0][0] = static_cast<Index>(t.mesh.vertices.size()); }},

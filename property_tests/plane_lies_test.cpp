@@ -161,7 +161,8 @@ TEST(PlaneLies, AboutAnEdgeOverAVertex) {
     return e.segment == 0 && (e.vertices[0] == 4 || e.vertices[1] == 4);
   });
   edges.push_back({{beside[0], beside[1]}, 0});
-  EXPECT_TRUE(says(verdict_on(told), "refined-segments", "has an edge over a vertex"));
+  EXPECT_TRUE(
+      says(verdict_on(told), "refined-segments", "has an edge that passes through a vertex"));
 }
 
 // Segments cut a rectangle into two halves; what is inside is no matter of parity.

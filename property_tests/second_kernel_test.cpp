@@ -313,7 +313,7 @@ const Lie kLies[] = {
        auto& tet = t.record.final[7].vertices;
        std::swap(tet[2], tet[3]);
      }},
-    {"a tetrahedron inside called outside", "is said to be outside",
+    {"a tetrahedron inside called outside", "is recorded as outside",
      [](Told& t) { t.record.final[7].inside = false; }},
 };
 
@@ -333,7 +333,7 @@ TEST_P(SecondKernel, CatchesEveryTetrahedronOnTheWrongSide) {
     Told told(samples::cube_in_hull(), GetParam());
     told.record.final[t].inside = !told.record.final[t].inside;
     const OracleReport report = told.report();
-    EXPECT_TRUE(says(report, "tetrahedron " + std::to_string(t) + " is said to be"))
+    EXPECT_TRUE(says(report, "tetrahedron " + std::to_string(t) + " is recorded as"))
         << text_of(report);
   }
 }

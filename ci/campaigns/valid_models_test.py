@@ -85,7 +85,7 @@ class Links(unittest.TestCase):
         self.model("out", "mine.off")
         done = self.run_on(rows, "a")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("mine.off is no link", done.stderr)
+        self.assertIn("mine.off is not a link", done.stderr)
         self.assertEqual(self.linked(), {"mine.off": "out/mine.off"})
 
     def test_what_has_gone_or_changed_is_named(self):

@@ -384,7 +384,7 @@ TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
   EXPECT_EQ(error_of({"exit 4", "no-such-mesher"}), "m1: no-such-mesher: not found");
   EXPECT_EQ(error_of({"/no/such/mesher"}), "m0: /no/such/mesher: not found");
   EXPECT_EQ(error_of({plain.string()}), "m0: " + plain.string() + ": is not executable");
-  EXPECT_EQ(error_of({folder_.string()}), "m0: " + folder_.string() + ": is no file");
+  EXPECT_EQ(error_of({folder_.string()}), "m0: " + folder_.string() + ": is not a file");
   EXPECT_EQ(error_of({script.string()}), "m0: " + script.string() + ": its interpreter " +
                                              (folder_ / "no-shell").string() + " cannot be run");
   EXPECT_TRUE(error_of({"./plain"}).find("an absolute path is expected") != std::string::npos);

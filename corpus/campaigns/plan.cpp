@@ -118,7 +118,7 @@ Extrapolation extrapolated(const Plan& plan, std::size_t models, unsigned shards
   if (plan.by_model.empty()) throw std::runtime_error("there are no models to go by");
   if (models < plan.by_model.size()) {
     throw std::runtime_error(
-        fmt::format("{} models are no sample of {}", plan.by_model.size(), models));
+        fmt::format("{} models are not a sample of {}", plan.by_model.size(), models));
   }
   const std::size_t size = plan.by_model.size();
   Extrapolation all;

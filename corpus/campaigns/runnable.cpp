@@ -62,7 +62,7 @@ std::string why_not_runnable(const std::string& line, const fs::path& supervisor
   if (outcome.exit_code != 0) return word + ": not found";
   const fs::path program = last_line(outcome.stdout_tail);
   if (!program.is_absolute()) return "";
-  if (!fs::is_regular_file(program)) return word + ": is no file";
+  if (!fs::is_regular_file(program)) return word + ": is not a file";
   if (access(program.c_str(), X_OK) != 0) return word + ": is not executable";
   const std::string interpreter = why_no_interpreter(program);
   return interpreter.empty() ? "" : word + ": " + interpreter;

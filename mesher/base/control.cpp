@@ -28,7 +28,7 @@ bool goes_on(const Limits& limits, const Progress& progress) {
                    std::string("interrupted: the progress callback threw: ") + error.what()}};
   } catch (...) {
     throw Stopped{{StatusCode::interrupted,
-                   "interrupted: the progress callback threw what is no std::exception"}};
+                   "interrupted: the progress callback threw what is not a std::exception"}};
   }
 }
 

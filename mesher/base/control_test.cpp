@@ -31,7 +31,8 @@ TEST(Control, WhatTheCallbackThrowsInterrupts) {
   EXPECT_EQ(known.message, "interrupted: the progress callback threw: no more");
   const Status unknown = status_with([](const Progress&) -> bool { throw 3; });
   EXPECT_EQ(unknown.code, StatusCode::interrupted);
-  EXPECT_EQ(unknown.message, "interrupted: the progress callback threw what is no std::exception");
+  EXPECT_EQ(unknown.message,
+            "interrupted: the progress callback threw what is not a std::exception");
 }
 
 TEST(Control, MemoryIsALimitInTheCallbackToo) {

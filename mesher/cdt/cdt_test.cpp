@@ -110,13 +110,13 @@ TEST(Cdt, ValidateReportsBrokenPromises) {
   EXPECT_EQ(said(faces, inside), "a triangle of a facet is there twice");
   faces = surface;
   faces[0].vertices[0] = static_cast<VertexId>(model.points.add_explicit(99, 0, 0));
-  EXPECT_EQ(said(faces, inside), "a triangle of a facet is no face");
+  EXPECT_EQ(said(faces, inside), "a triangle of a facet is not a face");
 
   Model twisted(twisted_prism(3, 0.5, 1, true));
   Tetrahedrization delaunay(twisted.predicates);
   delaunay.build(twisted.input.vertices, twisted.control);
   const Chains edges(twisted.input, twisted.points);
-  EXPECT_EQ(complaint([&] { validate_segments(delaunay, edges); }), "a subsegment is no edge");
+  EXPECT_EQ(complaint([&] { validate_segments(delaunay, edges); }), "a subsegment is not an edge");
 }
 
 TEST(Cdt, StepsAreToldInTheirOrder) {

@@ -11,7 +11,7 @@ void validate_edges(Tetrahedrization& mesh, const Chains& chains) {
   for (std::uint32_t n = 0; n < chains.size(); ++n) {
     if (!chains.is_subsegment(n)) continue;
     DELMESHER_CHECK(find_edge(mesh, chains, chains.node(n).vertex, chains.next(n).vertex) != kNone,
-                    "a subsegment is no edge");
+                    "a subsegment is not an edge");
   }
 }
 
@@ -30,7 +30,7 @@ void validate_facets(Tetrahedrization& mesh, const Chains& chains,
   std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
   for (const SurfaceFace& triangle : surface) {
     const FaceHandle face = find_face(mesh, chains, triangle.vertices);
-    DELMESHER_CHECK(face.exists(), "a triangle of a facet is no face");
+    DELMESHER_CHECK(face.exists(), "a triangle of a facet is not a face");
     DELMESHER_CHECK((walls[face.tet()] >> face.face() & 1) == 0,
                     "a triangle of a facet is there twice");
     for (const FaceHandle side : {face, mesh.across(face)}) {

@@ -172,7 +172,7 @@ Contact contact_at_edges(const Surface& surface, const SurfaceReport& report) {
           "triangle " + std::to_string(first) + " at " +
               point(surface.vertices[surface.triangles[first][0]]) + " is the first; with " +
               counted(enclosed->parts, "part") +
-              " inside this is no one solid, and only such are meshed: " +
+              " inside this is not one solid, and only such are meshed: " +
               (enclosed->closes ? "`tetproof union` unites them" : "leave walls out") +
               ", or mesh the parts one by one"};
 }

@@ -618,10 +618,11 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
   const auto [a0, a1, a] = box(0, 0);
   const auto [b0, b1, b] = box(1, 0);
   const auto [c0, c1, c] = box(1, 1);
-  EXPECT_EQ(hints_of(a0 + a1 + a + b1 + b),
-            "  hint: an inner wall of 2 triangles: triangle 2 at (1, 0, 0) is the first; with 2 "
-            "parts inside this is no one solid, and only such are meshed: leave walls out, or mesh "
-            "the parts one by one\n");
+  EXPECT_EQ(
+      hints_of(a0 + a1 + a + b1 + b),
+      "  hint: an inner wall of 2 triangles: triangle 2 at (1, 0, 0) is the first; with 2 "
+      "parts inside this is not one solid, and only such are meshed: leave walls out, or mesh "
+      "the parts one by one\n");
   EXPECT_NE(
       text("err.txt").find("(in all 4 non-manifold edges: an inner wall of 2 triangles; see "),
       std::string::npos)

@@ -264,8 +264,8 @@ TEST(ReadPly, LabelsAreIntegersOf32Bits) {
       "z\nelement face 1\nproperty list uchar int vertex_index\nproperty double label\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 ";
   EXPECT_EQ(read(head + "-7\n", "x.ply").surface.labels, (std::vector<std::int32_t>{-7}));
-  expect_error(head + "2147483648\n", "x.ply", "x.ply:14: a label that is no 32-bit integer");
-  expect_error(head + "0.5\n", "x.ply", "x.ply:14: a label that is no 32-bit integer");
+  expect_error(head + "2147483648\n", "x.ply", "x.ply:14: a label that is not a 32-bit integer");
+  expect_error(head + "0.5\n", "x.ply", "x.ply:14: a label that is not a 32-bit integer");
 }
 
 TEST(ReadTetgen, FacetsWithHolesAndNodeFiles) {

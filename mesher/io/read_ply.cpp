@@ -307,7 +307,7 @@ void PlyReader::read_faces(const Element& element) {
     if (label != Element::kNotFound) {
       const double value = scalars[label];
       if (!(value >= -2147483648.0 && value <= 2147483647.0) || value != std::floor(value)) {
-        fail(position, "a label that is no 32-bit integer");
+        fail(position, "a label that is not a 32-bit integer");
       }
       number = static_cast<std::int32_t>(value);
     }

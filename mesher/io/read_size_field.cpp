@@ -74,7 +74,7 @@ class ViewReader {
     return true;
   }
   void expect(char c) {
-    if (!accept(c)) fail(here(), std::string("this is no view of Gmsh: a ") + c + " is missing");
+    if (!accept(c)) fail(here(), std::string("this is not a view of Gmsh: a ") + c + " is missing");
   }
   std::string_view word() {
     skip_space();

@@ -50,7 +50,7 @@ std::vector<std::uint8_t> FacetBoundary::inside(const PlanarTriangulation& plana
     }
   }
   DELMESHER_CHECK(found == sides_.size(),
-                  "a subsegment is no edge of the triangulation of its facet");
+                  "a subsegment is not an edge of the triangulation of its facet");
   while (!stack.empty()) {
     const std::uint32_t t = stack.back();
     stack.pop_back();

@@ -84,7 +84,8 @@ TEST(FacetBoundary, WhatDoesNotSeparateIsRefused) {
   };
   EXPECT_EQ(complaint(both(kOuter, kHole)), "nothing");
   // Sides that cross the triangulation.
-  EXPECT_NE(complaint({{0, 6, 10}, {6, 3, 11}, {3, 0, 13}}).find("is no edge"), std::string::npos);
+  EXPECT_NE(complaint({{0, 6, 10}, {6, 3, 11}, {3, 0, 13}}).find("is not an edge"),
+            std::string::npos);
   // One that leads backwards.
   std::vector<DirectedSide> turned = both(kOuter, kHole);
   std::swap(turned[4].from, turned[4].to);

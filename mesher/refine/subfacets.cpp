@@ -65,7 +65,7 @@ void Subfacets::validate(Control& control) {
 void Subfacets::validate_in_mesh(std::uint32_t s) {
   const auto& c = planar_[s].v;
   const FaceHandle face = dt_.find_face(c[0], c[1], c[2]);
-  DELMESHER_CHECK(face.exists(), "a subfacet is no face");
+  DELMESHER_CHECK(face.exists(), "a subfacet is not a face");
   for (const FaceHandle side : {face, dt_.across(face)}) {
     DELMESHER_CHECK(on_face(side.tet(), side.face()) == s,
                     "a tetrahedron does not know of its subfacet");

@@ -237,7 +237,7 @@ TEST(Subfacets, ValidateFindsALostFace) {
   Parts parts;
   parts.insert_in_volume({1.25, 0.75, 0});
   EXPECT_FALSE(taken_from(parts.subfacets).empty());
-  EXPECT_NE(complaint_of(parts.subfacets, parts.control).find("is no face"), std::string::npos);
+  EXPECT_NE(complaint_of(parts.subfacets, parts.control).find("is not a face"), std::string::npos);
 }
 
 }  // namespace

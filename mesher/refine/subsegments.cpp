@@ -126,7 +126,7 @@ void Subsegments::validate_chains() const {
 void Subsegments::validate_in_mesh(std::uint32_t s) {
   const Subsegment& sub = list_[s];
   const TetId t = dt_.find_edge(sub.a, sub.b);
-  DELMESHER_CHECK(t != kNone, "a subsegment is no edge");
+  DELMESHER_CHECK(t != kNone, "a subsegment is not an edge");
   std::vector<TetId> ring;
   dt_.edge_ring(t, sub.a, sub.b, ring);
   for (const TetId u : ring) {

@@ -178,7 +178,8 @@ TEST(Subsegments, ValidateFindsALostEdge) {
   Parts parts;
   parts.insert_in_volume({1.5, 0.0625, 0.0625});
   ASSERT_EQ(taken_from(parts.subsegments), std::vector<std::uint32_t>{parts.segment(0, 1)});
-  EXPECT_NE(complaint_of(parts.subsegments, parts.control).find("is no edge"), std::string::npos);
+  EXPECT_NE(complaint_of(parts.subsegments, parts.control).find("is not an edge"),
+            std::string::npos);
 }
 
 }  // namespace

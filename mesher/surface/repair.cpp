@@ -181,8 +181,8 @@ void Repair::drop_invalid() {
          const Triangle& corners = surface_.triangles[t];
          return std::any_of(corners.begin(), corners.end(), bad);
        }),
-       "triangle with a corner that is no point dropped",
-       "triangles with corners that are no points dropped");
+       "triangle with a corner that is not a point dropped",
+       "triangles with corners that are not points dropped");
   for (std::uint32_t v = 0; v < surface_.vertices.size(); ++v) {
     if (bad(v)) surface_.vertices[v] = {0, 0, 0};  // of no triangle; drop_unused takes it
   }

@@ -116,7 +116,7 @@ std::string check_point(std::span<const ExactPoint> points, std::size_t planes, 
   const bool triangle = p.kind == Kind::on_triangle;
   for (const Index corner : {p.i, p.j, triangle ? p.k : p.j}) {
     if (corner >= points.size() || !is_corner(points[corner])) {
-      return name + " refers to " + std::to_string(corner) + ", which is no corner";
+      return name + " refers to " + std::to_string(corner) + ", which is not a corner";
     }
   }
   return {};

@@ -332,7 +332,7 @@ double TextReader::exact_number() {
       std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
   if (!hexadecimal || error != std::errc() || end != digits.data() + digits.size() ||
       digits.starts_with('-') || !std::isfinite(value) || !fits_a_double(digits)) {
-    fail(quoted(text) + " is no hexadecimal number that a double holds");
+    fail(quoted(text) + " is not a hexadecimal number that a double holds");
   }
   return text.starts_with('-') ? -value : value;
 }
@@ -349,7 +349,7 @@ double TextReader::number() {
   const bool underflow = error == std::errc::result_out_of_range && underflows(digits);
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size() ||
       digits.starts_with('-')) {
-    fail(quoted(text) + " is no number");
+    fail(quoted(text) + " is not a number");
   }
   return negative ? -value : value;
 }
@@ -388,7 +388,7 @@ std::int64_t TextReader::integer() {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool two_signs = digits.size() < text.size() && digits.starts_with('-');
   if (error != std::errc() || end != digits.data() + digits.size() || two_signs) {
-    fail(quoted(text) + " is no integer");
+    fail(quoted(text) + " is not an integer");
   }
   return value;
 }
@@ -396,7 +396,7 @@ std::int64_t TextReader::integer() {
 std::int32_t TextReader::integer32() {
   const std::int64_t value = integer();
   if (value != static_cast<std::int32_t>(value)) {
-    fail(std::to_string(value) + " is no integer of 32 bits");
+    fail(std::to_string(value) + " is not an integer of 32 bits");
   }
   return static_cast<std::int32_t>(value);
 }

@@ -60,7 +60,7 @@ SurfaceOpinion openmesh_surface_opinion(const Polyhedron& surface) {
   for (const auto v : mesh.vertices()) {
     if (mesh.is_isolated(v) || mesh.is_manifold(v)) continue;
     opinion.manifold = false;
-    opinion.reason = "vertex " + std::to_string(v.idx()) + " is no manifold";
+    opinion.reason = "vertex " + std::to_string(v.idx()) + " is not a manifold";
     return opinion;
   }
   opinion.closed = true;

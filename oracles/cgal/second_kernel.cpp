@@ -363,7 +363,7 @@ class SecondKernel {
       ++cast;
       const int side = parity(RarelyExact{rough_centroid(p), [&p] { return centroid(p); }});
       if (side != (tet.inside ? 1 : 0)) {
-        report_.fail("tetrahedron " + std::to_string(t) + " is said to be " +
+        report_.fail("tetrahedron " + std::to_string(t) + " is recorded as " +
                      (tet.inside ? "inside" : "outside") + ", and is not");
       }
     }

@@ -157,7 +157,7 @@ class GmshReader {
         for (std::uint64_t k = 0; k < tags; ++k) {
           const std::int64_t value = integer();
           // Some readers would take the entity's own tag for it, others 0.
-          if (value == 0) reader_.fail("a physical tag of 0, which is none");
+          if (value == 0) reader_.fail("a physical tag of 0");
           if (k == 0) group = value;
           if (value != group) further_.emplace(dimension, value);
         }

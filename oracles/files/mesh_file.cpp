@@ -141,7 +141,7 @@ class MeditReader {
       const std::uint64_t count = counts_[section] + counts_[section + "P2"];
       if (largest.number <= count) continue;
       throw ReadError(path_ + ":" + std::to_string(largest.line) + ": a reference to " + section +
-                      ": there is none of number " + std::to_string(largest.number));
+                      " number " + std::to_string(largest.number) + ", which does not exist");
     }
   }
 
@@ -215,7 +215,7 @@ MeshFile read_tet(const std::string& path) {
     reader.expect_line_end();
   }
   for (std::uint64_t t = 0; t < inner + outer; ++t) {
-    if (reader.integer() != 4) reader.fail("a cell that is no tetrahedron");
+    if (reader.integer() != 4) reader.fail("a cell that is not a tetrahedron");
     mesh.tetrahedra.push_back(read_corners<4>(reader, 0, vertices));
     reader.expect_line_end();
   }
@@ -291,7 +291,7 @@ MeshFile read_gmsh(const std::string& path) {
         named == text.names.end() ? group : number_in(named->second, "label ").value_or(group);
     mesh.labels_contradict = mesh.labels_contradict || (label > 0 && label != group);
     if (label != static_cast<std::int32_t>(label)) {
-      throw ReadError(path + ": label " + std::to_string(label) + " is no integer of 32 bits");
+      throw ReadError(path + ": label " + std::to_string(label) + " is not an integer of 32 bits");
     }
     mesh.labels.push_back(static_cast<std::int32_t>(label));
   }
@@ -341,7 +341,7 @@ class VtuReader {
     static const std::map<double, std::int64_t> kSizes = {{1, 1},  {3, 2},  {5, 3},  {10, 4},
                                                           {21, 3}, {22, 6}, {24, 10}};
     const auto wanted = kSizes.find(types_[cell]);
-    if (wanted == kSizes.end()) text_.fail("a cell that is no tetrahedron and no triangle");
+    if (wanted == kSizes.end()) text_.fail("a cell that is neither a tetrahedron nor a triangle");
     const auto end = start_ + static_cast<std::size_t>(wanted->second);
     if (size != wanted->second || end > corners_.size()) text_.fail("offsets that fit no cell");
     std::array<Index, 10> node{};
@@ -446,7 +446,7 @@ void read_tetgen_elements(const std::string& path, std::int64_t first, MeshFile&
   TextReader ele = TextReader::of_file(path);
   const std::uint64_t tets = ele.count();
   const std::int64_t corners = integer_in_line(ele, path);
-  if (corners != 4 && corners != 10) ele.fail("elements are no tetrahedra of 4 or 10 nodes");
+  if (corners != 4 && corners != 10) ele.fail("elements are not tetrahedra of 4 or 10 nodes");
   const std::int64_t attributes = integer_in_line(ele, path);
   if (attributes < 0) ele.fail("no such number of attributes");
   ele.expect_line_end();
@@ -536,7 +536,7 @@ void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& me
     if (markers == 1) {
       if (further.empty()) face.fail("the marker is missing");
       if (further[0] != static_cast<std::int32_t>(further[0])) {
-        face.fail(std::to_string(further[0]) + " is no integer of 32 bits");
+        face.fail(std::to_string(further[0]) + " is not an integer of 32 bits");
       }
       mesh.labels.push_back(static_cast<std::int32_t>(further[0]));
       further.erase(further.begin());

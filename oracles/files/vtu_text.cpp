@@ -110,13 +110,13 @@ void VtuText::fail(const std::string& reason) const {
 }
 
 std::int64_t VtuText::integer(double value) const {
-  if (!(std::fabs(value) < 0x1p53) || value != std::trunc(value)) fail("a value is no integer");
+  if (!(std::fabs(value) < 0x1p53) || value != std::trunc(value)) fail("a value is not an integer");
   return static_cast<std::int64_t>(value);
 }
 
 std::int32_t VtuText::integer32(double value) const {
   const std::int64_t whole = integer(value);
-  if (whole != static_cast<std::int32_t>(whole)) fail("a value is no integer of 32 bits");
+  if (whole != static_cast<std::int32_t>(whole)) fail("a value is not an integer of 32 bits");
   return static_cast<std::int32_t>(whole);
 }
 
@@ -281,7 +281,7 @@ std::vector<double> VtuText::values(const XmlElement& array) const {
     // Readers differ in what they take of an array with comments in it, or of its second half.
     if (array.has_text_behind_child || text.find("<!") != std::string_view::npos ||
         text.find("<?") != std::string_view::npos) {
-      fail("an array with more in it than its values");
+      fail("extra data among or after the values of an array");
     }
     text = text.substr(0, inner);
   }
@@ -301,7 +301,7 @@ std::vector<double> VtuText::values(const XmlElement& array) const {
                                  : static_cast<double>(reader.integer()));
   }
   const bool fit = std::ranges::all_of(values, [&](double value) { return fits(type, value); });
-  if (!fit) fail("an array of type " + type + " with a value that is none of these");
+  if (!fit) fail("an array of type " + type + " with a value that does not fit it");
   return values;
 }
 
@@ -324,12 +324,12 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
       fail(what + " has \"" + components + "\" components, not " + wanted);
     }
     if (section == "Cells" && array.value("type").starts_with("Float")) {
-      fail(what + " is of numbers that are no integers");
+      fail(what + " is of numbers that are not integers");
     }
     result = values(array);
     const std::string tuples = array.value("NumberOfTuples");
     if (!tuples.empty() && tuples != std::to_string(result.size() / std::stoul(wanted))) {
-      fail(what + " has not " + tuples + " tuples");
+      fail(what + " does not have " + tuples + " tuples");
     }
     const std::size_t size = section == "Points" ? 3 * points_ : cells_;
     if (name != "connectivity" && result.size() != size) {

@@ -33,7 +33,7 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
         std::lower_bound(actual.begin(), actual.end(), std::pair(sorted(listed[i]), Index{0}));
     if (at == actual.end() || at->first != sorted(listed[i])) {
       if (std::binary_search(hull.begin(), hull.end(), sorted(listed[i]))) continue;
-      report.fail("listed triangle " + std::to_string(i) + " is no boundary face of the solid");
+      report.fail("listed triangle " + std::to_string(i) + " is not a boundary face of the solid");
       continue;
     }
     Face outwards = conformity.faces[at->second];

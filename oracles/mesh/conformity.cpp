@@ -259,7 +259,7 @@ void Conformity::check_border(Index a, std::size_t edge) {
   };
   const bool again = edge > edges.from(a).first && edges[edge - 1].to == b;
   if (back.size() != 1 || again) {
-    return fail(name() + " has not one face on either side");
+    return fail(name() + " does not have one face on either side");
   }
   const Index mine = result_.facets[edges[edge].face],
               other = result_.facets[edges[back.first].face];

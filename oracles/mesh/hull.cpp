@@ -89,7 +89,7 @@ void Hull::check_edges() {
   if (components != 1) {
     report_.fail("the outer boundary consists of " + std::to_string(components) + " pieces");
   } else if (euler != 2) {
-    report_.fail("the outer boundary is no sphere: its Euler characteristic is " +
+    report_.fail("the outer boundary is not a sphere: its Euler characteristic is " +
                  std::to_string(euler));
   }
 }

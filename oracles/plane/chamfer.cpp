@@ -99,7 +99,7 @@ class ChamferChecker {
       ++distance_.checked;
       const std::string what = corner_name(corner.vertex);
       if (corner.vertex >= vertices) {
-        distance_.fail(what + " is no input vertex");
+        distance_.fail(what + " is not an input vertex");
         continue;
       }
       if (!distance_of_.emplace(corner.vertex, corner.distance).second) {
@@ -218,7 +218,7 @@ class ChamferChecker {
     drops_.checked += segments;
     for (const Index s : record_.dropped) {
       if (s >= segments) {
-        drops_.fail("segment " + std::to_string(s) + " is none of the input");
+        drops_.fail("segment " + std::to_string(s) + " is not in the input");
       } else if (!dropped.insert(s).second) {
         drops_.fail("segment " + std::to_string(s) + " is called dropped twice");
       }

@@ -276,7 +276,7 @@ class FileChecker {
                             points_.orient(all[c[2]], all[c[0]], p) > 0);
       });
       if (within || hull()) {
-        conformity_.fail("input vertex " + std::to_string(v) + " is no vertex of the mesh");
+        conformity_.fail("input vertex " + std::to_string(v) + " is not a vertex of the mesh");
       }
     }
   }
@@ -448,7 +448,7 @@ class FileChecker {
       }
       const Index segment = segment_of(found->second);
       if (i < file_.segments.size() && file_.segments[i] != segment) {
-        list_.fail(what + " is said to be on another segment");
+        list_.fail(what + " is listed on another segment");
       }
       const std::int32_t marker = markers.empty() ? 0 : markers[segment];
       if (i < file_.markers.size() && file_.markers[i] != marker) {

@@ -43,7 +43,7 @@ std::int64_t integer_in_line(TextReader& reader, const std::string& path, std::i
 
 std::int32_t integer32(const TextReader& reader, std::int64_t value) {
   if (value != static_cast<std::int32_t>(value)) {
-    reader.fail(std::to_string(value) + " is no integer of 32 bits");
+    reader.fail(std::to_string(value) + " is not an integer of 32 bits");
   }
   return static_cast<std::int32_t>(value);
 }
@@ -365,7 +365,7 @@ PlaneFile read_gmsh(const std::string& path) {
       file.triangles.push_back({n[0], n[1], n[2]});
       file.inside.push_back(element.group == 1 ? 1 : 0);
     } else {
-      fail("an element that is no line and no triangle");
+      fail("an element that is neither a line nor a triangle");
     }
   });
   if (text.version != 4.1) fail("no text of version 4.1");
@@ -405,7 +405,8 @@ class VtuReader {
     attributes_ = vtu_.array("CellData", "attribute");
     std::size_t start = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
-      if (types[cell] != 5 && types[cell] != 3) vtu_.fail("a cell that is no line and no triangle");
+      if (types[cell] != 5 && types[cell] != 3)
+        vtu_.fail("a cell that is neither a line nor a triangle");
       const std::size_t end = start + (types[cell] == 5 ? 3 : 2);
       if (offsets[cell] != static_cast<double>(end) || end > corners_.size()) {
         vtu_.fail("offsets leave the connectivity");
@@ -463,7 +464,7 @@ PlaneFile read_off(const std::string& path, std::string_view text) {
     reader.expect_line_end();
   }
   for (std::uint64_t i = 0; i < faces; ++i) {
-    if (reader.integer() != 3) reader.fail("a face that is no triangle");
+    if (reader.integer() != 3) reader.fail("a face that is not a triangle");
     const std::uint32_t a = reader.index(0, vertices), b = reader.index(0, vertices);
     file.triangles.push_back({a, b, reader.index(0, vertices)});
     reader.expect_line_end();

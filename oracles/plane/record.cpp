@@ -206,7 +206,7 @@ class SameMesh {
       }
       const auto found = expected.find(undirected(ids_[a], ids_[b]));
       if (found == expected.end()) {
-        oracle_.fail(what + " is no edge on a segment in the record");
+        oracle_.fail(what + " is not an edge on a segment in the record");
         continue;
       }
       compare_edge(i, found->second, what);
@@ -245,7 +245,7 @@ OracleReport check_plane_promise(const PlaneRecord& record, const Promise& promi
     if (!kept) oracle.fail(otherwise);
   };
   const auto section = [&](const char* what, std::size_t size) {
-    demand(size > 0, std::string("the record has nothing in its section ") + what);
+    demand(size > 0, std::string("empty section of the record: ") + what);
   };
   demand(version == kVersion, "the record is of version " + std::to_string(version) +
                                   ", what is promised needs version " + std::to_string(kVersion));

@@ -51,7 +51,7 @@ class SegmentRest {
       if (part_->from > at) fail(" has a hole away from vertices");
       at = part_->to;
     }
-    if (low < begin || at > end) fail(" has an edge over a vertex");
+    if (low < begin || at > end) fail(" has an edge that passes through a vertex");
     const double length = recorded_.exact.distance(a, b);
     return {true, mpq_class(low - begin).get_d() * length, mpq_class(end - at).get_d() * length};
   }

@@ -58,8 +58,9 @@ class Enrichment {
       if (v < inputs_ || refined_[v] != 0) continue;
       ++on_surface;
       if (!lies_on_surface(points_, surface_, v)) {
-        report_.fail(complex_.vertex_name(v) +
-                     " of the final mesh is no vertex of the refined one and not on the surface");
+        report_.fail(
+            complex_.vertex_name(v) +
+            " of the final mesh is not a vertex of the refined one and not on the surface");
       }
     }
     report_.figures.emplace_back("new on the surface", static_cast<double>(on_surface));

@@ -51,7 +51,7 @@ OracleReport move_to_origin(BesideOrigin& task) {
     ++report.checked;
     bool exact = true;
     for (std::size_t i = 0; i < 3; ++i) exact = move(p[i], origin[i]) && exact;
-    if (!exact) report.fail(what + " is no double relative to the origin of the record");
+    if (!exact) report.fail(what + " is not a double relative to the origin of the record");
   };
   for (std::size_t v = 0; v < task.input.vertices.size(); ++v) {
     for (const double x : task.input.vertices[v]) {

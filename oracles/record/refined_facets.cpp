@@ -69,7 +69,7 @@ void RefinedFacets::find_mesh_faces() {
 void RefinedFacets::check_face(Face face, Index id) {
   ++report_.checked;
   if (in_mesh_[faces_.find(face)] == 0) {
-    return report_.fail(complex_.face_name(face) + " is no face of the refined mesh");
+    return report_.fail(complex_.face_name(face) + " is not a face of the refined mesh");
   }
   const Index f = facets_.find(id);
   if (f == kNone) {

@@ -14,7 +14,7 @@ FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) :
   for (const ExactRecord::Facet& facet : record.facets) {
     const Index f = find(facet.id);
     if (f == kNone || surface.facets()[f].label != facet.label) {
-      defect_ = "facet " + std::to_string(facet.id) + " of the record is none of the surface";
+      defect_ = "facet " + std::to_string(facet.id) + " of the record is not in the surface";
       continue;
     }
     ++named;

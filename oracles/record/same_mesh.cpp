@@ -213,7 +213,7 @@ class SameMesh {
       }
       for (const Difference& d : change.differences) {
         report_.fail("tetrahedron " + std::to_string(d.index) +
-                     (d.written ? " of the file is none of the record"
+                     (d.written ? " of the file is not in the record"
                                 : " of the record is not in the file"));
       }
     }
@@ -389,7 +389,7 @@ class SameMesh {
           [](const LabelledFace& other, const Face& wanted) { return other.face < wanted; });
       const std::string name = "boundary triangle " + std::to_string(n) + " of the file";
       if (found == recorded.end() || found->face != face) {
-        report_.fail(name + " is no face on a facet of the record");
+        report_.fail(name + " is not a face on a facet of the record");
         continue;
       }
       if (n < mesh_.labels.size() && found->label != mesh_.labels[n]) {
@@ -468,7 +468,7 @@ OracleReport check_rounding(const MeshFile& mesh, const ExactRecord& record,
     const Index v = record.mesh_vertices[i];
     ++report.checked;
     if (v >= points.size()) {
-      report.fail("written vertex " + std::to_string(i) + " is no point of the record");
+      report.fail("written vertex " + std::to_string(i) + " is not a point of the record");
       continue;
     }
     if (used[v]++ != 0) {

@@ -94,7 +94,7 @@ bool Segments::check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain) 
     const std::size_t e = edges_.find({a, b});
     if (in_mesh_[e] == 0) {
       report_.fail(chain_name(n, chain) + ": " + complex_.vertex_name(a) + " - " +
-                   complex_.vertex_name(b) + " is no edge of the refined mesh");
+                   complex_.vertex_name(b) + " is not an edge of the refined mesh");
     }
     if (chain_of_[e] != kNone) {
       report_.fail(chain_name(n, chain) + " shares an edge with segment " +
@@ -112,7 +112,7 @@ void Segments::check_artificial(std::size_t n, const ExactRecord::Chain& chain) 
   const Index facet = facets_.find(chain.facet);
   if (facet == kNone || !facets_.kept(facet)) {
     return report_.fail(name + " lies in facet " + std::to_string(chain.facet) +
-                        ", which is none that was kept");
+                        ", which was not kept");
   }
   const InputSurface::Facet& plane = surface_.facets()[facet];
   std::vector<Index> sorted = chain.vertices;

@@ -86,7 +86,7 @@ class BallsInTheirTime {
   // Empty, or why there was no such tetrahedron, which must not be flat.
   std::string why_not(const ExactRecord::Ball& ball, int sign) const {
     for (const Index v : ball.tetrahedron) {
-      if (is_vertex_[v] == 0) return complex_.vertex_name(v) + " of it is no vertex of the mesh";
+      if (is_vertex_[v] == 0) return complex_.vertex_name(v) + " of it is not a vertex of the mesh";
       if (v >= ball.vertex) return complex_.vertex_name(v) + " of it was not there yet";
     }
     std::array<Index, 4> corners = ball.tetrahedron;
@@ -126,7 +126,7 @@ OracleReport check_balls(const RefinedMesh& mesh) {
     const auto& [a, b, c, d] = ball.tetrahedron;
     const std::string name = mesh.complex->vertex_name(ball.vertex);
     if (waiting[ball.vertex] == 0) {
-      report.fail(name + " has a ball too many, or is no volume Steiner point");
+      report.fail(name + " has a ball too many, or is not a volume Steiner point");
     }
     waiting[ball.vertex] = 0;
     const int sign = exact::orient3d(points, a, b, c, d);

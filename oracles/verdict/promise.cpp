@@ -226,7 +226,7 @@ class PromiseReader {
       } else if (first == "improve") {
         task = Task::improve;
       } else if (first != "mesh") {
-        return "\"" + first + "\" is none of mesh, cdt, plane and improve";
+        return "\"" + first + "\" is not mesh, cdt, plane or improve";
       }
     }
     set_defaults(task, preset(), p);
@@ -355,7 +355,7 @@ class PromiseCheck {
     if (!kept) report_.fail(otherwise);
   }
   void section(const std::string& name, std::size_t size) {
-    demand(size > 0, "the record has nothing in its section " + name);
+    demand(size > 0, "empty section of the record: " + name);
   }
   void as_promised(const std::string& name, double recorded, double promised, bool tightened) {
     demand(

@@ -203,7 +203,7 @@ const Lie kForeign[] = {
      }},
     {"a face on a facet fewer in the record", "same-mesh",
      [](Told& t) { t.record.final_facets.pop_back(); }},
-    {"a written vertex that is no point of the record", "rounding",
+    {"a written vertex that is not a point of the record", "rounding",
      [](Told& t) { t.record.mesh_vertices.back() = 4294967295U; }},
     {"outside called by two numbers", "same-mesh",
      [](Told& t) {

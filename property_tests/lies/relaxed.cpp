@@ -123,7 +123,7 @@ const Lie kRelaxed[] = {
        t.record.parameters = {};
        t.record.parameters.tolerance = 0x1p60;
      }},
-    {"delta that is no number", "sidecar",
+    {"delta that is not a number", "sidecar",
      [](Told& t) { t.record.parameters.delta = std::nan(""); }},
     {"delta infinite", "sidecar", [](Told& t) { t.record.parameters.delta = HUGE_VAL; }},
     {"delta that the mesh does not have", "refined-angles",
@@ -132,9 +132,9 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.record.parameters.acute = HUGE_VAL; }},
     {"threshold of corners above a right angle", "promise",
      [](Told& t) { t.record.parameters.acute = t.record.parameters.corner = 120; }},
-    {"threshold of one corner that is no number", "sidecar",
+    {"threshold of one corner that is not a number", "sidecar",
      [](Told& t) { t.record.corners.front().threshold = std::nan(""); }},
-    {"tolerance that is no number", "sidecar",
+    {"tolerance that is not a number", "sidecar",
      [](Told& t) {
        t.promise.budget = 1000;
        t.record.parameters.tolerance = std::nan("");
@@ -142,7 +142,7 @@ const Lie kRelaxed[] = {
     {"tolerance negative", "promise",
      [](Told& t) { t.record.parameters.tolerance = -t.record.parameters.tolerance; }},
     {"tolerance denormal", "promise", [](Told& t) { t.record.parameters.tolerance = 0x1p-1070; }},
-    {"a distance that is no number", "sidecar",
+    {"a distance that is not a number", "sidecar",
      [](Told& t) { t.record.corners.front().distance = std::nan(""); }},
     {"a distance negative", "refined-chamfer-need",
      [](Told& t) { t.record.corners.front().distance *= -1; }},

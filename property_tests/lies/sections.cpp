@@ -129,7 +129,7 @@ const Lie kSections[] = {
      [](Told& t) {
        t.record.origin = {0x1p60, 0, 0};
      }},
-    {"an origin that is no number", "frame",
+    {"an origin that is not a number", "frame",
      [](Told& t) {
        t.record.origin = {0, NAN, 0};
      }},
@@ -264,7 +264,7 @@ const Lie kSections[] = {
      [](Told& t) {
        t.record.chamfer_points.push_back({0, t.record.corners.front().vertex});
      }},
-    {"a corner that is no vertex of the input", "refined-chamfer-need",
+    {"a corner that is not a vertex of the input", "refined-chamfer-need",
      [](Told& t) {
        t.record.corners.push_back({t.record.chamfer_points.front()[0], 60, 0x1p-4});
      }},

@@ -452,7 +452,7 @@ TEST(TextReader, ErrorsNameFileAndLine) {
     reader.integer();
     FAIL();
   } catch (const ReadError& error) {
-    EXPECT_EQ(std::string(error.what()), "name:3: \"x\" is no integer");
+    EXPECT_EQ(std::string(error.what()), "name:3: \"x\" is not an integer");
   }
 }
 

@@ -245,7 +245,7 @@ const Lie kLies[] = {
      [](Told& t) { t.record.parameters.planar *= 1000; }},
     {"no bound for the planes", "promise", [](Told& t) { t.record.parameters.planar = 0; }},
     {"an infinite bound", "sidecar", [](Told& t) { t.record.parameters.planar = HUGE_VAL; }},
-    {"a bound that is no number", "sidecar",
+    {"a bound that is not a number", "sidecar",
      [](Told& t) { t.record.parameters.planar = std::nan(""); }},
     {"a bound smaller than what was done", "stand-in",
      [](Told& t) { t.record.parameters.planar *= 0x1p-20; }},
@@ -303,7 +303,7 @@ const Lie kLies[] = {
        t.record.triangles = t.sample.input.triangles;
        std::swap(t.record.triangles.front(), t.record.triangles.back());
      }},
-    {"a point on planes that is no vertex", "sidecar",
+    {"a point on planes that is not a vertex", "sidecar",
      [](Told& t) { t.record.points.push_back(t.record.points[moved_vertex(t.record)]); }},
     {"too few triangles", "sidecar",
      [](Told& t) {

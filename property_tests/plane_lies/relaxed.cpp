@@ -10,7 +10,7 @@ using Index = std::uint32_t;
 
 const Lie kRelaxed[] = {
     {"delta relaxed to nothing", "promise", [](Told& t) { t.record.delta = 0x1p-20; }},
-    {"delta that is no number", "promise", [](Told& t) { t.record.delta = NAN; }},
+    {"delta that is not a number", "promise", [](Told& t) { t.record.delta = NAN; }},
     {"delta that no triangle has", "promise", [](Told& t) { t.record.delta = 1000; }},
     {"delta between what triangles have and a right angle", "promise",
      [](Told& t) { t.record.delta = 61; }},
@@ -19,11 +19,11 @@ const Lie kRelaxed[] = {
     {"delta stricter than asked for", "promise",
      [](Told& t) { t.record.delta = t.how.promised.delta * (1 + 1e-12); }},
     {"threshold of corners relaxed", "promise", [](Told& t) { t.record.acute = 1; }},
-    {"threshold of corners that is no number", "promise", [](Told& t) { t.record.acute = NAN; }},
+    {"threshold of corners that is not a number", "promise", [](Told& t) { t.record.acute = NAN; }},
     {"threshold of corners infinite", "promise", [](Told& t) { t.record.acute = HUGE_VAL; }},
     {"a distance infinite", "refined-chamfer-distance",
      [](Told& t) { t.record.corners.front().distance = HUGE_VAL; }},
-    {"a distance that is no number", "refined-chamfer-distance",
+    {"a distance that is not a number", "refined-chamfer-distance",
      [](Told& t) { t.record.corners.front().distance = NAN; }},
     {"a distance below nothing", "refined-chamfer-distance",
      [](Told& t) { t.record.corners.front().distance *= -1; }},
@@ -50,7 +50,7 @@ const Lie kRelaxed[] = {
      [](Told& t) {
        t.record.corners.push_back({0, 0x1p-4});
      }},
-    {"a corner that is no vertex of the input", "refined-chamfer-distance",
+    {"a corner that is not a vertex of the input", "refined-chamfer-distance",
      [](Told& t) {
        t.record.corners.push_back({static_cast<Index>(t.graph.vertices.size()), 0x1p-4});
      }},

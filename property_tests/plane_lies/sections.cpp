@@ -132,7 +132,7 @@ const Lie kSections[] = {
          if (p.kind == ExactPoint::Kind::on_segment) return void(p.j = 0xfffffff0U);
        }
      }},
-    {"a point that is no number", "sidecar",
+    {"a point that is not a number", "sidecar",
      [](Told& t) { t.record.points.back() = {ExactPoint::Kind::explicit_point, 0, 0, 0, NAN, 0}; }},
     {"an edge of the refined mesh between points that do not exist", "sidecar",
      [](Told& t) { t.record.refined_edges.front().vertices[1] = 0xfffffff0U; }},

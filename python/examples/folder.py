@@ -25,7 +25,7 @@ def row_of(path):
 
 
 def examples(folder):
-    """A good file, an open surface and one that is no surface."""
+    """A good file, an open surface and one that is not a surface."""
     good = tetproof.mesh(cube())
     good.write(folder / "good.stl")
     hole = tetproof.Mesh(good.points, good.tetrahedra[:0], good.inside[:0], good.boundary[1:], good.labels[1:], good.facets[1:])

@@ -237,7 +237,7 @@ class Report:
     volume, bbox_diagonal, smallest_local_feature_size : float
         Only of a valid surface, but for the diagonal.
     flipped : bool
-        The surface was inside out, which is no defect.
+        The surface was inside out, which is not a defect.
     """
     valid: bool
     message: str
