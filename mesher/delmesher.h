@@ -44,7 +44,7 @@ Result constrained_delaunay(const Surface& surface, const CdtOptions& options = 
 // is made, unless there was one as bad. Vertices of no tetrahedron are dropped. `inside` may be
 // empty, which means all are inside; so may labels and facets. Statistics::refined is of the given
 // mesh, `final` of the result; `rounding_flat` counts flat tetrahedra of the given mesh that are
-// left. A mesh that is not conforming, by exact signs, is refused with StatusCode::invalid_mesh;
+// left. A mesh that is not conforming, by exact signs, is rejected with StatusCode::invalid_mesh;
 // overlaps of tetrahedra without a common face are not looked for.
 Result improve_mesh(const TetMesh& mesh, const ImproveOptions& options = {});
 

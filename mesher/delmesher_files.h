@@ -36,7 +36,7 @@ struct ReadResult {
   LabelNames names;    // solids of an STL, objects of a 3MF, materials, groups or objects of an OBJ
   std::string format;  // "OFF", "OBJ", "STL", "PLY", "3MF", "smesh", "poly"
   std::vector<std::string> warnings;                // what the user should know
-  std::vector<std::string> notes;                   // what a log may tell
+  std::vector<std::string> notes;                   // for a log
   std::vector<std::array<std::uint32_t, 2>> lines;  // ReadOptions::planar: edges of polylines
   bool ok() const { return code == ReadCode::ok; }
 };

@@ -38,7 +38,7 @@ inline constexpr double kChamferedFraction = 1.0 / 16;
 // So many times a gap between two chamfered edges that is narrower than the tolerance may fit along
 // them. The refinement makes elements as small as the gap all along it, 4 or 5 tetrahedra each time
 // it fits. The facets that it is left out for get some dozens of bad tetrahedra in the last step,
-// however long it is, so that only the longest are worth it (docs/paper.md has the measurements).
+// however long it is, so that only the longest are worth it (measured: docs/measurements).
 inline constexpr double kLongGap = 500;
 
 struct FilterOptions {

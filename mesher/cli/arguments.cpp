@@ -315,7 +315,7 @@ void as_options(std::vector<std::string>& arguments) {
   }
 }
 
-// A first word that is no file and nearly a command.
+// A first word that is not a file and nearly a command.
 std::string mistyped_command(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].find_first_of("./-") != std::string::npos) return {};
   std::error_code ignored;

@@ -68,7 +68,7 @@ TEST(Arguments, DefaultsAreTheLibrarys) {
 }
 
 // A command with each option of a job alone: an option of the table is read, has the effect of its
-// name, and is refused where it is not of the job.
+// name, and is rejected by jobs without it.
 struct JobCase {
   std::vector<std::string> arguments;
   std::vector<options::Value> values;
@@ -286,7 +286,7 @@ TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
   expect_usage_error({"repair", "in.off", "-o", "-"}, "as in -.stl");
   expect_usage_error({"meshh", "cube.off"}, "no command or file 'meshh': did you mean mesh?");
   expect_usage_error({"chekc", "cube.off"}, "did you mean check?");
-  // A word that stands where a value is expected is no option, and a file may be called like a
+  // A word in the place of a value is not an option, and a file may be called like a
   // command.
   expect_usage_error({"in.off", "-o", "a.mesh", "--delta", "-1"}, "out of range: -1");
   EXPECT_EQ(parse({"mesh", "meshes", "-o", "a.mesh"}).command.input, "meshes");

@@ -46,7 +46,7 @@ std::uint64_t count_of(const SurfaceReport& report, Kind kind) {
   return report.defect_counts[static_cast<std::size_t>(kind)];
 }
 
-// Is the ring so thin that it is no hole: do vertices on one side lie on an edge of the other?
+// Is the ring so thin that it is not a hole: do vertices on one side lie on an edge of the other?
 bool is_slit(const Surface& surface, const Hole& hole) {
   const geometry::Point3 normal = geometry::doubled_area(surface.vertices, hole.corners);
   const double area2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];

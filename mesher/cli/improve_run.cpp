@@ -50,7 +50,7 @@ int ImproveRunner::read() {
   return read_beside(names_, mesh_.boundary_labels);
 }
 
-// A .tet file tells sides, but no regions.
+// A .tet file has sides, but no regions.
 void ImproveRunner::warn_of_lost_regions() const {
   const auto& regions = mesh_.regions;
   if (std::adjacent_find(regions.begin(), regions.end(), std::not_equal_to()) == regions.end()) {

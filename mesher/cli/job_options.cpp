@@ -38,7 +38,7 @@ std::string range_text(const Bounds& bounds) {
   return bounds.high == options::kNoBound ? low : low + ", at most " + number_text(bounds.high);
 }
 
-// Where 0 means none, the option is to be left out instead.
+// Where 0 means none, users leave the option out instead.
 Bounds bounds_of(const Value& option) {
   Bounds bounds = option.text.bounds;
   if (!option.text.zero_is_none) return bounds;

@@ -1,4 +1,4 @@
-// The program itself, as users run it: an error in a file is told in one line with the documented
+// The program itself, as users run it: an error in a file is one line with the documented
 // exit code, nothing is left half-written, and signals and limits end a run.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -802,7 +802,7 @@ TEST_F(Program, GzipIsRefusedWithoutZlib) {
 }
 #endif
 
-// What it is, its first bytes tell.
+// Its first bytes show what it is.
 TEST_F(Program, ImproveReadsStandardInput) {
   write("in.off", cube());
   ASSERT_EQ(run("in.off -q --improve off --max-edge 0.5 -o in.mesh -o in.msh -o in.vtu -o in.tet"),

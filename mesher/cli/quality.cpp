@@ -52,7 +52,7 @@ class InputAngles {
   explicit InputAngles(const TetMesh& mesh) : mesh_(mesh) {}
 
   // Between the two facets at this edge of a tetrahedron, on the side of the tetrahedron; 360 if it
-  // is no edge between facets.
+  // is not an edge between facets.
   double wedge(const std::array<std::uint32_t, 4>& edge_first) const {
     const auto [a, b, c, d] = edge_first;
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
@@ -121,7 +121,7 @@ class InputAngles {
   }
 
   // Outside and inside, between the facets at this edge; 360 where there are no tetrahedra, or if
-  // it is no edge between facets.
+  // it is not an edge between facets.
   std::array<double, 2> wedges(std::uint32_t a, std::uint32_t b) const {
     std::vector<std::uint32_t> facets;
     for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {

@@ -46,7 +46,7 @@ struct Text {
   Bounds bounds = {};  // of switches and choices: 0 and 1
   Unit unit = Unit::none;
   bool zero_is_none = false;  // on the command line one leaves the option out instead
-  bool promised = false;      // the oracles hold the mesh to it, if told with --promised
+  bool promised = false;      // the oracles check it, if named in --promised
   std::array<Word, 2> words = {};
 };
 

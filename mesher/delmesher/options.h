@@ -40,18 +40,18 @@ struct Options : Limits {
   // Fewer and better tetrahedra on the same surface, by local operations (section 8.3).
   bool improve = true;
   // Treat slivers in the refinement (section 5.7). The improvement then has less to mend, and ends
-  // with rounder tetrahedra and better worst ones, for a tenth more of them (docs/options.md).
+  // with rounder tetrahedra and better worst ones, for a tenth more of them (docs/measurements).
   bool slivers = true;
   bool approximate = false;      // stop before the enriched CDT (section 6)
   bool simplify_bridges = true;  // section 4.4
   double chamfer_radius = 0;     // how far a chamfer may reach; 0: no bound
-  // Triangles that are coplanar but for rounding become one facet. The surface keeps the vertices
+  // Triangles that are coplanar up to rounding become one facet. The surface keeps the vertices
   // and edges of such facets; in between it may deviate by this fraction of the bounding box's
   // diagonal. 0: the surface as given, to the last bit; if meshes are improved, such triangles are
   // one facet while they are refined, and the edges between them come back at the end. kPlanarAuto:
   // as little as it takes for triangles that are bent by less than 2^-20 of the diagonal, at most
   // 2^-18; where coordinates were rounded to few digits, six times what that moves a point off a
-  // plane (surface/flatness.h, surface/resolution.h), and where edges tell of more noise, 16 times
+  // plane (surface/flatness.h, surface/resolution.h), and where edges show more noise, 16 times
   // that (surface/edge_bends.h), at most 2^-12.
   double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside; 0: no bound

@@ -5,7 +5,7 @@
 
 namespace delmesher {
 
-// Edges through this point are no longer than `size`, and with the distance they may grow.
+// Edges through this point are at most `size` long, and may grow with the distance from it.
 struct SizeSource {
   std::array<double, 3> point;
   double size;

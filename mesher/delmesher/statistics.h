@@ -44,7 +44,7 @@ struct Statistics {
   // With Options::planar 0 the facets are planar only while they are refined: edges of the surface
   // as given within them, which come back afterwards; how many found no place by local operations;
   // and what was done for that, or because the mesh did not fit the surface as given: that surface
-  // was tetrahedrized anew with the same vertices, or everything was done anew without planar
+  // was tetrahedrized again with the same vertices, or the run was repeated without planar
   // facets.
   std::uint64_t diagonals = 0, diagonals_missing = 0;
   std::uint64_t diagonals_spared = 0;  // points on them that went for fewer tetrahedra
@@ -63,7 +63,7 @@ struct Statistics {
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
   // Limits that the mesher set itself: refinements that the guard stopped, each followed by another
   // one; whether the treatment of slivers, or of angles above the guaranteed bound, was ended by
-  // its cap on insertions; and how often the constrained tetrahedrization began anew.
+  // its cap on insertions; and how often the constrained tetrahedrization began again.
   std::uint64_t guard_stops = 0;
   bool refinement_capped = false;
   std::uint64_t cdt_restarts = 0;

@@ -43,7 +43,7 @@ struct SurfaceReport {
   std::uint64_t vertices = 0, triangles = 0, components = 0, unused_vertices = 0;
   std::int64_t euler_characteristic = 0;
   double bbox_diagonal = 0, volume = 0;  // volume of the solid, rounded
-  // `facets`: of the surface as given. `planar_facets`: with triangles that are coplanar but for
+  // `facets`: of the surface as given. `planar_facets`: with triangles that are coplanar up to
   // `planar_bound` taken as one facet; acute vertices and edges are counted between these.
   std::uint64_t facets = 0, planar_facets = 0, acute_vertices = 0, acute_edges = 0;
   double planar_bound = 0;                 // in input units

@@ -7,8 +7,8 @@
 
 namespace delmesher {
 
-// A tetrahedral mesh; every tetrahedron (a, b, c, d) has det(b-a, c-a, d-a) > 0, but for those that
-// Statistics::rounding_inverted and rounding_flat count.
+// A tetrahedral mesh; every tetrahedron (a, b, c, d) has det(b-a, c-a, d-a) > 0, except for those
+// that Statistics::rounding_inverted and rounding_flat count.
 struct TetMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;

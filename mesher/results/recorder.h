@@ -34,11 +34,11 @@ class Recorder {
   void improved(const ConformingMesh& mesh);
   // `vertices` in all were taken out again before rounding.
   void thinned(const ConformingMesh& mesh, std::uint64_t vertices);
-  // Edges of the surface as given came back by local operations, but for `missing`.
+  // Edges of the surface as given came back by local operations, except for `missing`.
   void put_back(std::uint64_t diagonals, std::uint64_t missing);
   // Points on edges that came back were taken out for fewer tetrahedra.
   void spared(std::uint64_t points) { result_.statistics.diagonals_spared = points; }
-  // The surface as given was tetrahedrized anew, with the same vertices.
+  // The surface as given was tetrahedrized again, with the same vertices.
   void tetrahedrized_anew() { result_.statistics.planar_anew = true; }
   // The mesh is of no use, because it cannot be put back.
   void given_up() { result_.statistics.planar_given_up = true; }

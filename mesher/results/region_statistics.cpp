@@ -8,7 +8,7 @@
 namespace delmesher::results {
 namespace {
 
-// Of those tetrahedra of the region that `is_inside` tells apart by their number.
+// Statistics of the tetrahedra of the region; `is_inside` separates them by their number.
 template <class IsInside>
 MeshStatistics region_statistics(const std::vector<std::array<VertexId, 4>>& all,
                                  const IsInside& is_inside,

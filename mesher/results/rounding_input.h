@@ -9,7 +9,7 @@
 namespace delmesher::results {
 
 // All tetrahedra of the mesh are written. Where vertices were moved so that facets are planar,
-// points on the surface are placed anew on the given ones, with the same parameters.
+// points on the surface are placed again on the given ones, with the same parameters.
 output::RoundingInput rounding_input(ConformingMesh mesh, const Session& session);
 
 // The part of the refined mesh itself that is written; its boundary is the part of the surface that

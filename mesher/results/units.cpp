@@ -79,7 +79,7 @@ bool names_places(const Result& result) {
          result.status.code == StatusCode::invalid_mesh;
 }
 
-// `run` is told the exponent of its units.
+// `run` gets the exponent of its units.
 template <class Model, class JobOptions, class Run>
 Result scaled_and_back(const Model& model, const JobOptions& given, const Run& run) {
   const int exponent = unit_exponent(model.vertices);
