@@ -34,10 +34,9 @@ constexpr const char* kSurfaces =
     "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input";
 void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
   app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
-  add_count(app, given.options, "jobs", "how many of several inputs at a time, 0: one per core (1)",
-            {.high = 1024});
-  auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
-  app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
+  add_count(app, given.options, "jobs", "inputs at a time, 0: one per core (1)", {.high = 1024});
+  auto* quiet = app.add_flag("-q,--quiet", command.quiet, "print errors only");
+  app.add_flag("-v,--verbose", command.verbose, "print what each phase did")->excludes(quiet);
 }
 
 // The options of every job that writes something.
@@ -64,7 +63,7 @@ void add_mesh_outputs(CLI::App& app, Command& command, const std::string& extens
 }
 
 void add_exact(CLI::App& app, Command& command) {
-  add_file(app, command, "--exact", &Command::exact_file, "write the exact form of everything");
+  add_file(app, command, "--exact", &Command::exact_file, "write the exact record of the run");
 }
 
 void add_chamfered(CLI::App& app, Command& command, const char* help) {
@@ -72,8 +71,7 @@ void add_chamfered(CLI::App& app, Command& command, const char* help) {
 }
 
 void add_names(CLI::App& app, Command& command) {
-  add_file(app, command, "--names", &Command::names_file,
-           "file of lines LABEL NAME: what labels are called");
+  add_file(app, command, "--names", &Command::names_file, "names of labels, lines LABEL NAME");
 }
 
 // How a mesh in space is written.
@@ -127,8 +125,8 @@ void add_check(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
   app.add_flag("--json", command.json, "report as JSON");
   add_file(app, command, "--defects", &Command::defects_file,
-           "write the surface as .ply, its triangles coloured by what is wrong at them, or as "
-           ".vtu with numbers for that");
+           "write the surface with its defects: .ply with coloured triangles, or .vtu with "
+           "numbers");
   add_options_of<CheckOptions>(app, given);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -339,17 +340,26 @@ std::string options_page() {
       "units of the input. In parentheses stand the default and the\nvalues that are accepted. C "
       "and Python have the same names, with `_` for `-`, and the choices of `--as-paper` as\n"
       "`paper_NAME`, with `_` for `-`, too.\n";
+  std::set<std::string> of_mesh;  // the rows of the first job
   for (const JobCase& job : job_cases()) {
     page += "\n## `" + job.arguments[0] + "`\n\n| option | meaning |\n|---|---|\n";
     std::istringstream lines(parse({job.arguments[0], "--help"}).out);
-    std::string row;
+    const bool first = of_mesh.empty();
+    std::string row, as_for_mesh;
     const auto end_row = [&] {
       for (auto at = row.find('|'); at != std::string::npos; at = row.find('|', at + 2)) {
         row.insert(at, "\\");
       }
       const auto gap = row.find("  ");
       if (!row.empty()) {
-        page += "| `" + row.substr(0, gap) + "` | " + unfolded(row.substr(gap)) + " |\n";
+        const std::string option = "`" + row.substr(0, gap) + "`";
+        const std::string text = "| " + option + " | " + unfolded(row.substr(gap)) + " |\n";
+        if (first) of_mesh.insert(text);
+        if (first || !of_mesh.contains(text)) {
+          page += text;
+        } else {
+          as_for_mesh += (as_for_mesh.empty() ? "" : ", ") + option;
+        }
       }
       row.clear();
     };
@@ -364,6 +374,7 @@ std::string options_page() {
         end_row();
       }
     }
+    if (!as_for_mesh.empty()) page += "\nAs for `mesh`: " + as_for_mesh + ".\n";
   }
   page += "\n## Choices of `--as-paper`\n\n| choice | meaning |\n|---|---|\n";
   for (const options::Value& option : options::values_of(Options())) {

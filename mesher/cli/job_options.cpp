@@ -144,7 +144,7 @@ void add_as_paper(CLI::App& app, GivenOptions& given, const std::vector<std::str
   const std::string names = joined(all, ", ");
   app.add_option_function<std::string>(
          "--as-paper", [&given](const std::string& text) { given[kAsPaper] = text; },
-         "what is done as the paper says: " + names + ", with commas, all, or none (none)")
+         "choices made as in the paper: " + names + ", with commas, all, or none (none)")
       ->check(CLI::Validator(
           [all, names](std::string& text) -> std::string {
             const bool known = text == "all" || text == "none" || !entries_of(text, all).empty();
