@@ -1,44 +1,69 @@
 // Repairs by changing the tetrahedra: flips and collapses that keep every boundary face.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "mesher/output/rounded_mesh.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/tetmesh/contract_edge.h"
+#include "mesher/tetmesh/remove_edge.h"
+#include "mesher/tetmesh/remove_faces.h"
 
 namespace delmesher::output {
 
 class LocalOperations {
  public:
   LocalOperations(RoundedMesh& mesh, const PointStore& exact_points)
-      : mesh_(mesh), exact_(exact_points) {}
+      : mesh_(mesh),
+        judge_(mesh, exact_points),
+        edges_(mesh.topology()),
+        faces_(mesh.topology()),
+        vertices_(mesh.topology()) {}
 
   // Removes the bad tetrahedron t by an operation whose new tetrahedra are all positive on the
   // rounded coordinates; with `exact_too`, also on the exact ones, so that the result is valid in
-  // both senses. Tries, in this order: removing one of its edges (3-2, 4-4 and longer rings), one
-  // of its faces (2-3), collapsing one of its volume vertices. False if none of these can be done.
-  bool fix(std::uint32_t t, bool exact_too);
+  // both senses. Tries, in this order: removing one of its edges (3-2, 4-4 and longer rings), some
+  // of its faces (2-3 and more), collapsing one of its volume vertices. False if none of these can
+  // be done.
+  bool fix(TetId t, bool exact_too);
 
  private:
-  bool remove_edge(std::uint32_t t, int i, int j);
-  bool find_ring(std::uint32_t t, int i, int j);
-  bool triangulate_ring(std::uint32_t a, std::uint32_t b);
-  bool remove_face(std::uint32_t t, int i);
-  bool collapse(std::uint32_t v);
-  bool collapse_to(std::uint32_t v, std::uint32_t w);
-  bool positive(const Tet& vertices);
-  bool replace();
-  bool is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  // All that counts is that tetrahedra are positive.
+  class Judge {
+   public:
+    using Value = bool;
+    Judge(RoundedMesh& mesh, const PointStore& exact_points) : mesh_(mesh), exact_(exact_points) {}
+
+    void ask(bool exact_too) { exact_too_ = exact_too; }
+    bool is_positive(const Tet& tet);
+
+    static bool nothing() { return true; }
+    static bool impossible() { return false; }
+    static bool both(bool a, bool b) { return a && b; }
+    static bool is_possible(bool value) { return value; }
+    static bool is_known(TetId) { return false; }
+    static void begin(RegionId) {}
+    static bool may_join(VertexId, VertexId) { return true; }
+    bool add(const Tet& tet, bool&) { return is_positive(tet); }
+    bool add(TetId t, int i, VertexId w, bool&);
+    bool value_of(const Tet& tet, RegionId) { return is_positive(tet); }
+    static bool is_worth(bool value, bool best) { return value && !best; }
+    static bool is_better(bool value, bool best) { return value && !best; }
+    static bool is_enough(bool value) { return value; }
+
+   private:
+    RoundedMesh& mesh_;
+    Predicates exact_;
+    bool exact_too_ = true;
+  };
+
+  bool remove_edge(TetId t, int i, int j);
+  bool remove_face(TetId t, int i);
+  bool collapse(VertexId v);
 
   RoundedMesh& mesh_;
-  Predicates exact_;
-  bool exact_too_ = true;
-  // The operation being tried.
-  std::vector<std::uint32_t> removed_;
-  std::vector<Tet> created_;
-  std::vector<std::uint32_t> ring_;  // vertices around the edge being removed
+  Judge judge_;
+  RemoveEdge<Judge> edges_;
+  RemoveFaces<Judge> faces_;
+  ContractEdge<Judge> vertices_;
 };
 
 }  // namespace delmesher::output

@@ -365,12 +365,30 @@ TEST(LocalOperations, RemovesFaces) {
 
 TEST(LocalOperations, MakesNoEdgeTwice) {
   // As above, but the edge 3 4 that the flip would create exists in another tetrahedron.
+  for (const bool taken : {false, true}) {
+    Scene s;
+    s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
+    s.add(1, 1, 0, true), s.add(1, 1, 2, true), s.add(9, 9, 0, true), s.add(9, 0, 9, true);
+    s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {0, 1, 3, 5},
+                               {1, 3, 5, 6}, {0, 1, 4, 6}, {1, 4, 6, 5}};
+    if (taken) s.input.mesh.tetrahedra.push_back({3, 4, 5, 6});
+    RoundedMesh mesh = s.mesh();
+    mesh.prepare_repairs();
+    EXPECT_EQ(LocalOperations(mesh, s.points).fix(1, true), !taken);
+    EXPECT_EQ(alive(mesh), 7U);
+  }
+}
+
+// Where stars are not connected by faces, as in a refined mesh, tetrahedra stay.
+TEST(LocalOperations, KeepsTetrahedraWhereTheMeshTouchesItself) {
   Scene s;
   s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
-  s.add(1, 1, 0, true), s.add(1, 1, 2, true), s.add(9, 9, 0, true), s.add(9, 0, 9, true);
-  s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {3, 4, 5, 6}};
+  s.add(1, 1, 0, true), s.add(1, 1, 2, true);
+  s.add(-1, 0, 0, true), s.add(0, -1, 0, true), s.add(0, 0, -1, true);
+  s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {0, 5, 6, 7}};
   RoundedMesh mesh = s.mesh();
   mesh.prepare_repairs();
+  EXPECT_EQ(mesh.star(0).size(), 3U);
   EXPECT_FALSE(LocalOperations(mesh, s.points).fix(1, true));
   EXPECT_EQ(alive(mesh), 3U);
 }
@@ -392,6 +410,8 @@ TEST(LocalOperations, MakesNoFaceThrice) {
       for (const Tet& t : given.input.mesh.tetrahedra) {
         s.input.mesh.tetrahedra.push_back({moved(t[0]), moved(t[1]), moved(t[2]), moved(t[3])});
       }
+      s.input.mesh.tetrahedra.push_back({moved(0), moved(2), moved(3), 5});
+      s.input.mesh.tetrahedra.push_back({moved(0), moved(3), moved(4), 5});
       if (taken) s.input.mesh.tetrahedra.push_back({moved(2), moved(3), moved(4), 5});
       RoundedMesh mesh = s.mesh();
       ASSERT_FALSE(mesh.bad().empty());

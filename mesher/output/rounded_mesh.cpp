@@ -1,7 +1,6 @@
 #include "mesher/output/rounded_mesh.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "mesher/base/check.h"
@@ -205,15 +204,11 @@ bool RoundedMesh::accept(const Change& change) {
   }
   if (clashes(change)) return false;
   ++clock_;
-  std::vector<TetId> removed = change.removed;
-  std::ranges::sort(removed,
-                    std::greater<>());  // so that the first slots are used first
-  for (const TetId t : removed) {
+  for (const TetId t : change.removed) {
     for (const std::uint32_t v : tet(t)) changed_at_[v] = clock_;
     set_sign(t, 1);
   }
-  topology_->replace(removed, change.created, change.faces);
-  topology_->leave_gaps();
+  topology_->replace(change.removed, change.created, change.faces);
   sign_.resize(slots(), 1);
   for (const TetId t : topology_->created()) set_sign(t, sign_of(tet(t)));
   return true;

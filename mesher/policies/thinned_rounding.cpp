@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesher/output/thinning.h"
 #include "mesher/policies/plain.h"
-#include "mesher/policies/thinning.h"
 #include "mesher/results/rounding_input.h"
 
 namespace delmesher::policies {
@@ -40,8 +40,8 @@ void round_and_record(ConformingMesh final, Session& session, Recorder& recorder
   std::uint64_t thinned = 0;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
     const std::size_t gone =
-        thin_out(rounded.disturbed, rings, session.input_vertices(), session.frame, session.points,
-                 session.predicates, control, final);
+        output::thin_out(rounded.disturbed, rings, session.input_vertices(), session.frame,
+                         session.points, session.predicates, control, final);
     thinned += gone;
     const bool last = rings == kMostRings;
     const bool all_tried = thinned == 0 && defects(rounded).first <= kFew;

@@ -91,8 +91,6 @@ class MeshTopology {
   void replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
                std::span<const SurfaceFace> faces);
   std::span<const TetId> created() const { return created_; }
-  // Slots that are free now stay so.
-  void leave_gaps() { free_.clear(); }
 
   // Throws InternalError at the first invariant that does not hold.
   void validate() const;

@@ -1,4 +1,4 @@
-#include "mesher/policies/thinning.h"
+#include "mesher/output/thinning.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 
-namespace delmesher::policies {
+namespace delmesher::output {
 
 namespace rational = cdt::rational;
 
@@ -157,4 +157,4 @@ TEST(Thinning, ReachesAsFarAsItIsTold) {
 }
 
 }  // namespace
-}  // namespace delmesher::policies
+}  // namespace delmesher::output
