@@ -93,6 +93,7 @@ std::string help_of(const Value& option) {
   constexpr double kFar = 1e6;
   std::string help(option.text.help);
   if (option.text.unit == options::Unit::degrees) help += ", degrees";
+  if (option.text.unit == options::Unit::seconds) help += ", seconds";
   if (is_flag(option) || option.kind == Kind::sources || option.text.zero_is_none) return help;
   const bool numeric = option.kind == Kind::number || option.kind == Kind::count;
   if (!numeric) help += ": " + joined(words_of(option), " or ");

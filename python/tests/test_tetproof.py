@@ -1,5 +1,6 @@
 """The package as users see it. Run with pytest where tetproof is installed."""
 import gzip
+import inspect
 import os
 import pickle
 import signal
@@ -84,6 +85,28 @@ def test_unknown_options_and_types():
         tetproof.mesh(POINTS, TRIANGLES + 0.5)
     with pytest.raises(TypeError):
         tetproof.mesh(POINTS)
+
+
+def test_options_are_those_of_the_job():
+    signature = inspect.signature(tetproof.mesh).parameters
+    assert signature["delta"].default == 14.47 and signature["planar"].default == "auto" and signature["max_edge"].default is None
+    assert inspect.signature(tetproof.plane).parameters["delta"].default == 20.7
+    assert inspect.signature(tetproof.cdt).parameters["region"].default == "hull"
+    assert "paper_order : bool, default False" in tetproof.mesh.__doc__ and "**options" not in tetproof.mesh.__doc__
+    for job, names in {"mesh": ("paper_link", "gabriel"), "cdt": ("delta", "improve", "max_edge", "planar"),
+                       "check": ("max_vertices", "delta"), "plane": ("threads", "corner", "paper_link")}.items():
+        there = inspect.signature(getattr(tetproof, job)).parameters
+        for name in names:
+            assert (name in there) == (job == "mesh"), (job, name)
+    cube = tetproof.mesh(POINTS, TRIANGLES)
+    for wrong in (lambda: tetproof.cdt(POINTS, TRIANGLES, delta=3), lambda: tetproof.improve(cube, tau=0), lambda: tetproof.check(POINTS, TRIANGLES, max_vertices=9),
+                  lambda: tetproof.mesh(POINTS, TRIANGLES, order=2), lambda: tetproof.mesh(POINTS, TRIANGLES, steiner_point=1)):
+        with pytest.raises(TypeError, match="no such option"):
+            wrong()
+    with pytest.raises(ValueError, match="region cannot be 'all' .but 'interior' or 'hull'"):
+        tetproof.mesh(POINTS, TRIANGLES, region="all")
+    order = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.2, improve=False, paper_order=True, paper_steiner_point=True)
+    assert len(order.points) != len(tetproof.mesh(POINTS, TRIANGLES, max_edge=0.2, improve=False).points)
 
 
 def test_an_invalid_surface_says_where():

@@ -36,6 +36,8 @@ int main(void) {
   if (delmesher_options_set(options, "max_egde", 1) != -1) return fail("max_egde is an option");
   if (delmesher_options_set(options, "threads", 1.5) != -1) return fail("one and a half threads");
   if (delmesher_options_set(options, "improve", 2) != -1) return fail("improved twice");
+  if (delmesher_options_set(options, "order", 1) != -1) return fail("order is an option");
+  if (delmesher_options_set(options, "paper_order", 0) != 0) return fail("paper_order is no option");
 
   delmesher_result* result = delmesher_tetrahedralize(&cube, options);
   if (delmesher_result_status(result) != DELMESHER_OK) return fail(delmesher_result_message(result));
@@ -64,6 +66,17 @@ int main(void) {
   if (volume < 1 - 1e-12 || volume > 1 + 1e-12) return fail("another volume");
   if (boundary < 12 || of_sides[0] < 1 || of_sides[boundary - 1] > 6) return fail("other labels");
   delmesher_result_free(result);
+
+  result = delmesher_constrained_delaunay(&cube, options);
+  if (delmesher_result_status(result) != DELMESHER_INVALID_OPTIONS) return fail("cdt took max_edge");
+  if (strstr(delmesher_result_message(result), "max_edge") == NULL) return fail("another option than max_edge");
+  delmesher_result_free(result);
+  delmesher_options* hull = delmesher_options_new();
+  if (delmesher_options_set(hull, "threads", 2) != 0) return fail("threads is no option");
+  result = delmesher_constrained_delaunay(&cube, hull);
+  if (delmesher_result_status(result) != DELMESHER_OK) return fail(delmesher_result_message(result));
+  delmesher_result_free(result);
+  delmesher_options_free(hull);
 
   delmesher_options_progress(options, go_on, "refine");
   result = delmesher_tetrahedralize(&cube, options);
