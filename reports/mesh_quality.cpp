@@ -8,158 +8,100 @@
 #include <utility>
 #include <vector>
 
-#include "reports/angles.h"
-#include "reports/statistics.h"
+#include "oracles/base/vectors.h"
+#include "oracles/mesh/angles.h"
 
 namespace tetproof {
 namespace {
 
-using Vertices = std::span<const std::array<double, 3>>;
-using Tetrahedra = std::span<const std::array<std::uint32_t, 4>>;
-
-std::size_t bin(double degrees) {
-  return std::min<std::size_t>(11, static_cast<std::size_t>(degrees / 15));
-}
-
-Corners corners(Vertices vertices, const std::array<std::uint32_t, 4>& t) {
-  return {vertices[t[0]], vertices[t[1]], vertices[t[2]], vertices[t[3]]};
-}
-
-void measure_dihedrals(Vertices vertices, Tetrahedra tetrahedra, AngleStatistics& result) {
-  double sum_min = 0, sum_max = 0;
-  std::vector<double> smallest;
-  smallest.reserve(tetrahedra.size());
-  result.min_dihedral = 180;
-  for (const auto& t : tetrahedra) {
-    const auto angles = dihedral_angles(corners(vertices, t));
-    const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
-    smallest.push_back(*low);
-    sum_min += *low;
-    sum_max += *high;
-    result.min_dihedral = std::min(result.min_dihedral, *low);
-    result.max_dihedral = std::max(result.max_dihedral, *high);
-    result.below_5 += *low < 5;
-    result.below_10 += *low < 10;
-    for (const double angle : angles) ++result.dihedral_histogram[bin(angle)];
-  }
-  result.mean_min_dihedral = sum_min / static_cast<double>(tetrahedra.size());
-  result.mean_max_dihedral = sum_max / static_cast<double>(tetrahedra.size());
-  result.dihedral_percent = *quantile(std::move(smallest), 0.01);
-}
-
-void measure_shapes(Vertices vertices, Tetrahedra tetrahedra, int upright,
-                    ShapeStatistics& result) {
-  double sum_gamma = 0, sum_sicn = 0;
-  std::vector<double> gammas;
-  gammas.reserve(tetrahedra.size());
-  result.min_gamma = result.min_sicn = 1;
-  for (const auto& t : tetrahedra) {
-    const Corners c = corners(vertices, t);
-    const TetrahedronShape shape = tetrahedron_shape(c);
-    const double sicn = orientation(c) == -upright ? -shape.sicn : shape.sicn;
-    gammas.push_back(shape.gamma);
-    sum_gamma += shape.gamma;
-    sum_sicn += sicn;
-    result.min_gamma = std::min(result.min_gamma, shape.gamma);
-    result.min_sicn = std::min(result.min_sicn, sicn);
-  }
-  result.mean_gamma = sum_gamma / static_cast<double>(tetrahedra.size());
-  result.mean_sicn = sum_sicn / static_cast<double>(tetrahedra.size());
-  result.gamma_percent = *quantile(std::move(gammas), 0.01);
-}
-
-double length(const Point& a, const Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-double volume(const Corners& c) {
-  const auto d = [&](int i, int j) { return c[static_cast<std::size_t>(i)][j] - c[0][j]; };
-  return (d(1, 0) * (d(2, 1) * d(3, 2) - d(2, 2) * d(3, 1)) -
-          d(1, 1) * (d(2, 0) * d(3, 2) - d(2, 2) * d(3, 0)) +
-          d(1, 2) * (d(2, 0) * d(3, 1) - d(2, 1) * d(3, 0))) /
-         6;
-}
+using oracles::Position;
+using oracles::Tet;
+using Vertices = std::span<const Position>;
+using Tetrahedra = std::span<const Tet>;
 
 void measure_sizes(Vertices vertices, Tetrahedra tetrahedra, PartQuality& result) {
   result.shortest_edge = std::numeric_limits<double>::infinity();
-  for (const auto& t : tetrahedra) {
-    const Corners c = corners(vertices, t);
-    result.volume += std::fabs(volume(c));
+  for (const Tet& t : tetrahedra) {
+    Position edge[3];
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < i; ++j) {
-        result.shortest_edge = std::min(result.shortest_edge, length(c[i], c[j]));
+        const Position e = oracles::minus(vertices[t[i]], vertices[t[j]]);
+        result.shortest_edge = std::min(result.shortest_edge, std::hypot(e[0], e[1], e[2]));
+        if (j == 0) edge[i - 1] = e;
       }
     }
+    result.volume += std::fabs(oracles::dot(edge[0], oracles::cross(edge[1], edge[2]))) / 6;
   }
 }
 
-// The triangles of all tetrahedra, grouped by their smallest vertex: a bucket sort, because
-// sorting all of them at once would dominate the measurement of large meshes.
-class Faces {
- public:
-  using Rest = std::pair<std::uint32_t, std::uint32_t>;  // the two larger vertices, in order
-
-  Faces(std::size_t vertices, Tetrahedra tetrahedra) : start_(vertices + 1, 0) {
-    for_each(tetrahedra, [&](std::uint32_t low, Rest) { ++start_[low + 1]; });
-    for (std::size_t v = 0; v < vertices; ++v) start_[v + 1] += start_[v];
-    rest_.resize(start_.back());
-    std::vector<std::uint64_t> next(start_.begin(), start_.end() - 1);
-    for_each(tetrahedra, [&](std::uint32_t low, Rest rest) { rest_[next[low]++] = rest; });
-    for (std::size_t v = 0; v < vertices; ++v) std::sort(begin(v), begin(v + 1));
-  }
-
-  // visit(corners, how many tetrahedra have this face)
-  template <typename Visit>
-  void for_each_distinct(Visit visit) {
-    for (std::uint32_t v = 0; v + 1 < start_.size(); ++v) {
-      for (auto it = begin(v); it != begin(v + 1);) {
-        const auto end = std::find_if(it, begin(v + 1), [&](const Rest& r) { return r != *it; });
-        visit(std::array<std::uint32_t, 3>{v, it->first, it->second}, end - it);
-        it = end;
+// The faces of the tetrahedra, as Neighbours: those that are equal refer to the first of them.
+oracles::Neighbours distinct_faces(Tetrahedra tetrahedra, PartQuality& result) {
+  // A bucket for each smallest vertex: to sort all of them at once would take most of the time.
+  struct Rest {
+    oracles::Index middle, high, face;
+    auto operator<=>(const Rest&) const = default;
+  };
+  oracles::Index most = 0;
+  for (const Tet& t : tetrahedra) most = std::max(most, *std::max_element(t.begin(), t.end()));
+  std::vector<std::uint64_t> start(most + 2, 0);
+  const auto for_each = [&](auto visit) {
+    for (oracles::Index i = 0; i < 4 * tetrahedra.size(); ++i) {
+      const Tet& t = tetrahedra[i / 4];
+      std::array f = {t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]};
+      std::sort(f.begin(), f.end());
+      visit(f[0], Rest{f[1], f[2], i});
+    }
+  };
+  for_each([&](oracles::Index low, const Rest&) { ++start[low + 1]; });
+  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+  std::vector<Rest> rests(start.back());
+  std::vector<std::uint64_t> next(start.begin(), start.end() - 1);
+  for_each([&](oracles::Index low, const Rest& rest) { rests[next[low]++] = rest; });
+  oracles::Neighbours neighbours;
+  neighbours.across.assign(4 * tetrahedra.size(), oracles::kNone);
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    std::sort(rests.begin() + static_cast<std::ptrdiff_t>(start[v]),
+              rests.begin() + static_cast<std::ptrdiff_t>(start[v + 1]));
+    for (std::size_t i = start[v], end = i; i < start[v + 1]; i = end) {
+      while (end < start[v + 1] && rests[end].middle == rests[i].middle &&
+             rests[end].high == rests[i].high) {
+        ++end;
       }
+      for (std::size_t k = i + 1; k < end; ++k) neighbours.across[rests[k].face] = rests[i].face;
+      ++result.faces;
+      result.crowded_faces += end - i > 2 ? 1 : 0;
     }
   }
+  return neighbours;
+}
 
- private:
-  template <typename Visit>
-  static void for_each(Tetrahedra tetrahedra, Visit visit) {
-    for (auto t : tetrahedra) {
-      std::sort(t.begin(), t.end());
-      visit(t[0], Rest(t[1], t[2]));
-      visit(t[0], Rest(t[1], t[3]));
-      visit(t[0], Rest(t[2], t[3]));
-      visit(t[1], Rest(t[2], t[3]));
-    }
-  }
-
-  std::vector<Rest>::iterator begin(std::size_t vertex) {
-    return rest_.begin() + static_cast<std::ptrdiff_t>(start_[vertex]);
-  }
-
-  std::vector<std::uint64_t> start_;  // per vertex, into rest_
-  std::vector<Rest> rest_;
-};
-
-void measure_faces(Vertices vertices, Tetrahedra tetrahedra, PartQuality& result,
-                   std::uint64_t* crowded_faces) {
-  AngleStatistics& angles = result.angles;
-  double sum_min = 0, sum_max = 0;
-  std::uint64_t crowded = 0;
-  angles.min_face_angle = 180;
-  Faces(vertices.size(), tetrahedra).for_each_distinct([&](const auto& f, std::ptrdiff_t sharing) {
-    const auto three = triangle_angles(vertices[f[0]], vertices[f[1]], vertices[f[2]]);
-    const auto [low, high] = std::minmax_element(three.begin(), three.end());
-    ++result.faces;
-    crowded += sharing > 2;
-    sum_min += *low;
-    sum_max += *high;
-    angles.min_face_angle = std::min(angles.min_face_angle, *low);
-    angles.max_face_angle = std::max(angles.max_face_angle, *high);
-    for (const double angle : three) ++angles.face_angle_histogram[bin(angle)];
-  });
-  angles.mean_min_face_angle = sum_min / static_cast<double>(result.faces);
-  angles.mean_max_face_angle = sum_max / static_cast<double>(result.faces);
-  if (crowded_faces != nullptr) *crowded_faces = crowded;
+// As the oracle of angles measures them.
+void measure_angles(const oracles::ExactPoints& points, const std::vector<Tet>& tetrahedra,
+                    PartQuality& result) {
+  const oracles::Neighbours neighbours = distinct_faces(tetrahedra, result);
+  oracles::TetComplex complex;
+  complex.points = &points;
+  complex.tetrahedra = tetrahedra;
+  oracles::OracleReport report("measures");
+  oracles::measure_angles(complex, neighbours, std::vector<std::uint8_t>(tetrahedra.size(), 1),
+                          report);
+  const auto figure = [&](const char* name) { return report.figure(name).value(); };
+  AngleStatistics& a = result.angles;
+  a.min_face_angle = figure("smallest face angle");
+  a.max_face_angle = figure("largest face angle");
+  a.min_dihedral = figure("smallest dihedral angle");
+  a.max_dihedral = figure("largest dihedral angle");
+  a.mean_min_face_angle = figure("mean of faces' smallest angles");
+  a.mean_max_face_angle = figure("mean of faces' largest angles");
+  a.mean_min_dihedral = figure("mean of smallest dihedral angles");
+  a.mean_max_dihedral = figure("mean of largest dihedral angles");
+  a.below_5 = static_cast<std::uint64_t>(figure("tetrahedra below 5 degrees"));
+  a.below_10 = static_cast<std::uint64_t>(figure("tetrahedra below 10 degrees"));
+  a.dihedral_percent = figure("1 % quantile of smallest dihedral angles");
+  a.face_angle_histogram = report.histograms.at(0).second;
+  a.dihedral_histogram = report.histograms.at(1).second;
+  result.shapes = {figure("smallest gamma"), figure("mean gamma"), figure("1 % quantile of gamma"),
+                   figure("smallest SICN"), figure("mean SICN")};
 }
 
 std::uint64_t used_vertices(std::size_t vertices, Tetrahedra tetrahedra) {
@@ -170,10 +112,11 @@ std::uint64_t used_vertices(std::size_t vertices, Tetrahedra tetrahedra) {
   return static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
 }
 
-void count_signs(const oracles::MeshFile& mesh, MeshQuality& result) {
+void count_signs(const oracles::MeshFile& mesh, const oracles::ExactPoints& points,
+                 MeshQuality& result) {
   std::uint64_t positive = 0, negative = 0;
   for (const auto& t : mesh.tetrahedra) {
-    const int sign = orientation(corners(mesh.vertices, t));
+    const int sign = oracles::exact::orient3d(points, t[0], t[1], t[2], t[3]);
     positive += sign > 0;
     negative += sign < 0;
     result.flat += sign == 0;
@@ -194,6 +137,31 @@ void check_indices(const oracles::MeshFile& mesh) {
       }
     }
   }
+}
+
+PartQuality measure_part(Vertices vertices, const oracles::ExactPoints& points,
+                         const std::vector<Tet>& tetrahedra) {
+  PartQuality result;
+  result.tetrahedra = tetrahedra.size();
+  result.vertices = used_vertices(vertices.size(), tetrahedra);
+  if (tetrahedra.empty()) return result;
+  measure_sizes(vertices, tetrahedra, result);
+  measure_angles(points, tetrahedra, result);
+  return result;
+}
+
+// The oracles see meshes of about unit size, as here; powers of two change no angle.
+std::vector<Position> in_ordinary_units(std::vector<Position> vertices) {
+  double largest = 0;
+  for (const Position& p : vertices) {
+    for (const double x : p) largest = std::max(largest, std::fabs(x));
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (Position& p : vertices) {
+    for (double& x : p) x = std::ldexp(x, -exponent);
+  }
+  return vertices;
 }
 
 bool tells_inside(const oracles::MeshFile& mesh) {
@@ -233,23 +201,10 @@ nlohmann::ordered_json json_of(const PartQuality& part) {
 
 }  // namespace
 
-PartQuality measure_part(Vertices vertices, Tetrahedra tetrahedra, int upright,
-                         std::uint64_t* crowded_faces) {
-  PartQuality result;
-  result.tetrahedra = tetrahedra.size();
-  result.vertices = used_vertices(vertices.size(), tetrahedra);
-  if (tetrahedra.empty()) return result;
-  measure_dihedrals(vertices, tetrahedra, result.angles);
-  measure_shapes(vertices, tetrahedra, upright, result.shapes);
-  measure_sizes(vertices, tetrahedra, result);
-  measure_faces(vertices, tetrahedra, result, crowded_faces);
-  return result;
-}
-
-std::vector<std::array<std::uint32_t, 4>> inside_of(const oracles::MeshFile& mesh) {
+std::vector<Tet> inside_of(const oracles::MeshFile& mesh) {
   check_indices(mesh);
   if (!tells_inside(mesh)) return mesh.tetrahedra;
-  std::vector<std::array<std::uint32_t, 4>> inside;
+  std::vector<Tet> inside;
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
     if (mesh.regions[i] == 1) inside.push_back(mesh.tetrahedra[i]);
   }
@@ -258,16 +213,23 @@ std::vector<std::array<std::uint32_t, 4>> inside_of(const oracles::MeshFile& mes
 
 MeshQuality measure(const oracles::MeshFile& mesh) {
   check_indices(mesh);
+  oracles::ExactPoints points;
+  if (const std::string error = points.assign(in_ordinary_units(mesh.vertices)); !error.empty()) {
+    throw std::runtime_error(error);
+  }
   MeshQuality result;
-  count_signs(mesh, result);
-  const int upright = result.left_handed ? -1 : 1;
-  result.all = measure_part(mesh.vertices, mesh.tetrahedra, upright, &result.crowded_faces);
+  count_signs(mesh, points, result);
+  const auto part = [&](std::vector<Tet> tetrahedra) {
+    if (result.left_handed) {
+      for (Tet& t : tetrahedra) std::swap(t[2], t[3]);
+    }
+    return measure_part(mesh.vertices, points, tetrahedra);
+  };
+  result.all = part(mesh.tetrahedra);
   result.unused_vertices = mesh.vertices.size() - result.all.vertices;
   if (tells_inside(mesh)) {
     const auto inside = inside_of(mesh);
-    result.inside = inside.size() == mesh.tetrahedra.size()
-                        ? result.all
-                        : measure_part(mesh.vertices, inside, upright);
+    result.inside = inside.size() == mesh.tetrahedra.size() ? result.all : part(inside);
   }
   return result;
 }
@@ -282,7 +244,7 @@ std::string to_json(const MeshQuality& quality) {
   json["flat"] = quality.flat;
   json["repeated_corners"] = quality.repeated_corners;
   json["unused_vertices"] = quality.unused_vertices;
-  json["crowded_faces"] = quality.crowded_faces;
+  json["crowded_faces"] = quality.all.crowded_faces;
   json["left_handed"] = quality.left_handed;
   return json.dump();
 }

@@ -1,10 +1,10 @@
-// Measures the quality of a mesh from the file as written, in the same way for every mesher.
+// The quality of a mesh from the file as written, in the same way for every mesher. The oracles
+// measure angles and shapes (oracles/mesh/angles.h, shapes.h).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +34,7 @@ struct ShapeStatistics {
 
 struct PartQuality {
   std::uint64_t tetrahedra = 0, vertices = 0, faces = 0;  // vertices in use
+  std::uint64_t crowded_faces = 0;                        // of more than two tetrahedra
   double shortest_edge = 0, volume = 0;                   // in (cubic) units of the file
   AngleStatistics angles;
   ShapeStatistics shapes;
@@ -45,14 +46,8 @@ struct MeshQuality {
   std::uint64_t unused_vertices = 0;
   std::uint64_t inverted = 0, flat = 0;  // exact signs of the doubles as written
   std::uint64_t repeated_corners = 0;    // tetrahedra with a vertex twice (also flat)
-  std::uint64_t crowded_faces = 0;       // shared by more than two tetrahedra
   bool left_handed = false;              // most are negative: then the others count as inverted
 };
-
-// Tetrahedra whose orientation() is that of `upright`, 1 or -1, are not inverted.
-PartQuality measure_part(std::span<const std::array<double, 3>> vertices,
-                         std::span<const std::array<std::uint32_t, 4>> tetrahedra, int upright = 1,
-                         std::uint64_t* crowded_faces = nullptr);
 
 // Tetrahedra of region 1 are inside, if the only other regions of the file are 0 and 2: the
 // convention of our own files. Other regions tell nothing about inside and outside: then all are.

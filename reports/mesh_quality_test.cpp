@@ -141,7 +141,7 @@ TEST(MeshQuality, FlatRepeatedAndCrowded) {
   EXPECT_EQ(measure(mesh).repeated_corners, 1u);
   mesh = two_regular();
   mesh.tetrahedra.push_back({0, 1, 2, 5});
-  EXPECT_EQ(measure(mesh).crowded_faces, 1u);
+  EXPECT_EQ(measure(mesh).all.crowded_faces, 1u);
 }
 
 TEST(MeshQuality, InsideIsMeasuredSeparately) {
@@ -174,6 +174,51 @@ TEST(MeshQuality, MeansOfACorner) {
   const auto& h = a.face_angle_histogram;
   EXPECT_EQ(h[2] + h[3] + h[4], 9u);  // 45 and 60 are edges of bins, within rounding
   EXPECT_EQ(h[5] + h[6], 3u);         // so is 90
+}
+
+// The angles of the corner of a cube are the same at any scale.
+TEST(MeshQuality, AnyScale) {
+  for (const double factor : {0x1p-300, 0x1p-70, 1.0, 0x1p70, 0x1p300}) {
+    MeshFile mesh;
+    mesh.vertices = {{0, 0, 0}, {factor, 0, 0}, {0, factor, 0}, {0, 0, factor}};
+    mesh.tetrahedra = {{0, 1, 2, 3}};
+    const PartQuality q = measure(mesh).all;
+    EXPECT_NEAR(q.angles.min_dihedral, 54.735610317245346, 1e-12) << factor;  // atan(sqrt 2)
+    EXPECT_NEAR(q.angles.max_dihedral, 90, 1e-12) << factor;
+    EXPECT_NEAR(q.angles.min_face_angle, 45, 1e-12) << factor;
+    EXPECT_NEAR(q.shapes.min_sicn, 6 / std::sqrt(54.0), 1e-12) << factor;
+  }
+}
+
+// A square seen as a tetrahedron, then with one corner lifted by 1e-9: its sides have 0 and 180
+// degrees, nearly; the diagonals' lengths are sqrt 2.
+TEST(MeshQuality, FlatTetrahedraAndSlivers) {
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  AngleStatistics a = measure(mesh).all.angles;
+  EXPECT_EQ(a.min_dihedral, 0);
+  EXPECT_EQ(a.max_dihedral, 180);
+  EXPECT_EQ(measure(mesh).flat, 1u);
+  mesh.vertices[3][2] = 1e-9;
+  a = measure(mesh).all.angles;
+  EXPECT_NEAR(a.min_dihedral * 3.14159265358979323846 / 180, 1e-9, 1e-10);
+  EXPECT_EQ(measure(mesh).flat, 0u);
+}
+
+// Three coordinates of very different size, where plain doubles would be wrong: the dihedral angle
+// at the long edge, and so the largest one, is as if its corners were exchanged.
+TEST(MeshQuality, NeedlesAreMeasuredExactly) {
+  MeshFile mesh;
+  mesh.vertices = {
+      {0, 0, 0}, {0x1p30, 0x1p-30, 0x1p-30}, {0x1p29, 0x1p-20, 0}, {0x1p29, 0, 0x1p-20}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  const AngleStatistics a = measure(mesh).all.angles;
+  mesh.tetrahedra = {{1, 0, 3, 2}};
+  const AngleStatistics b = measure(mesh).all.angles;
+  EXPECT_NEAR(a.min_dihedral, b.min_dihedral, 1e-9);
+  EXPECT_NEAR(a.max_dihedral, b.max_dihedral, 1e-9);
+  EXPECT_GT(a.min_face_angle, 0);
 }
 
 TEST(MeshQuality, OtherRegionsSayNothingAboutInside) {

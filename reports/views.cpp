@@ -7,15 +7,18 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
+#include "oracles/base/vectors.h"
 #include "oracles/files/mesh_file.h"
 #include "oracles/files/surface_file.h"
-#include "reports/angles.h"
 #include "reports/measures.h"
 
 namespace tetproof {
 namespace {
+
+using Point = oracles::Position;
 
 namespace fs = std::filesystem;
 
@@ -67,12 +70,15 @@ ViewPart surface_part(const oracles::Polyhedron& surface, const Frame& frame) {
   return part;
 }
 
-std::uint8_t quality_of(const Corners& c) {
+// Four times the smallest face angle in degrees, for a colour.
+std::uint8_t quality_of(const std::array<Point, 4>& c) {
   double smallest = 60;
-  for (int skipped = 0; skipped < 4; ++skipped) {
-    const auto corner = [&](int i) { return c[static_cast<std::size_t>((skipped + i) % 4)]; };
-    for (const double angle : triangle_angles(corner(1), corner(2), corner(3))) {
-      smallest = std::min(smallest, angle);
+  for (std::size_t apex = 0; apex < 4; ++apex) {
+    for (std::size_t i = 1; i < 4; ++i) {
+      const Point u = oracles::minus(c[(apex + i) % 4], c[apex]);
+      const Point v = oracles::minus(c[(apex + i % 3 + 1) % 4], c[apex]);
+      const double sine = oracles::length(oracles::cross(u, v)), cosine = oracles::dot(u, v);
+      smallest = std::min(smallest, std::atan2(sine, cosine) * 180 / std::numbers::pi);
     }
   }
   return static_cast<std::uint8_t>(std::floor(4 * smallest));

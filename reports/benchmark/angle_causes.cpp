@@ -7,33 +7,38 @@
 #include <set>
 #include <vector>
 
-#include "reports/angles.h"
+#include "oracles/base/exact_points.h"
+#include "oracles/base/vectors.h"
 
 namespace tetproof::benchmark {
 namespace {
 
 using delmesher::ExactRecord;
-using Point = std::array<double, 3>;
+using oracles::cross;
+using oracles::dot;
+using oracles::length;
+using oracles::minus;
+using Point = oracles::Position;
+
+double degrees_between(const Point& u, const Point& v) {
+  return std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
+}
 
 double angle_at(const Point& a, const Point& b, const Point& c) {
-  double u[3], v[3], dot = 0, cross = 0;
-  for (int k = 0; k < 3; ++k) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
-    dot += u[k] * v[k];
-  }
-  for (int k = 0; k < 3; ++k) {
-    const int l = (k + 1) % 3, m = (k + 2) % 3;
-    const double x = u[l] * v[m] - u[m] * v[l];
-    cross += x * x;
-  }
-  return std::atan2(std::sqrt(cross), dot) * 180 / std::numbers::pi;
+  return degrees_between(minus(b, a), minus(c, a));
+}
+
+// At the edge ab of the tetrahedron abcd.
+double dihedral_at(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Point edge = minus(b, a);
+  return degrees_between(cross(edge, minus(c, a)), cross(edge, minus(d, a)));
 }
 
 // Angles of the surface where its facets end.
 class FacetAngles {
  public:
   FacetAngles(const delmesher::Surface& surface, const ExactRecord& record) : surface_(surface) {
+    points_.assign(surface.vertices);
     facet_.resize(surface.triangles.size());
     for (std::uint32_t f = 0; f < record.facets.size(); ++f) {
       for (const std::uint32_t t : record.facets[f].triangles) facet_[t] = f;
@@ -87,9 +92,10 @@ class FacetAngles {
     const auto beyond = triangle_at_.find({b, a});
     if (beyond == triangle_at_.end()) return 180;
     const auto at = [&](std::uint32_t v) { return surface_.vertices[v]; };
-    const Corners corners{at(a), at(b), at(opposite(a, b, t)), at(opposite(a, b, beyond->second))};
-    const int outside = orientation(corners);  // of the other triangle, seen from this one
-    const double angle = outside == 0 ? 180 : dihedral_angles(corners)[0];
+    const std::uint32_t c = opposite(a, b, t), d = opposite(a, b, beyond->second);
+    // Of the other triangle, seen from this one.
+    const int outside = oracles::exact::orient3d(points_, a, b, c, d);
+    const double angle = outside == 0 ? 180 : dihedral_at(at(a), at(b), at(c), at(d));
     const bool reflex = volume6_ > 0 ? outside > 0 : outside < 0;  // else it is inside out
     return reflex ? 360 - angle : angle;
   }
@@ -109,6 +115,7 @@ class FacetAngles {
   }
 
   const delmesher::Surface& surface_;
+  oracles::ExactPoints points_;
   std::vector<std::uint32_t> facet_;
   std::map<Edge, std::uint32_t> triangle_at_;
   double volume6_ = 0;
@@ -161,9 +168,12 @@ AngleCauses find_angle_causes(const delmesher::Surface& surface, const delmesher
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     if (mesh.inside[t] == 0) continue;
     const auto& tet = mesh.tetrahedra[t];
-    for (const double angle : dihedral_angles({mesh.vertices[tet[0]], mesh.vertices[tet[1]],
-                                               mesh.vertices[tet[2]], mesh.vertices[tet[3]]})) {
-      causes.smallest_dihedral = std::min(causes.smallest_dihedral, angle);
+    constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
+                                  {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+    for (const auto& e : kEdges) {
+      const auto at = [&](int k) { return mesh.vertices[tet[e[k]]]; };
+      causes.smallest_dihedral =
+          std::min(causes.smallest_dihedral, dihedral_at(at(0), at(1), at(2), at(3)));
     }
     for (int skip = 0; skip < 4; ++skip) {
       std::array<std::uint32_t, 3> face{};
