@@ -21,7 +21,7 @@
 #include "corpus/campaigns/progress.h"
 #include "corpus/campaigns/runnable.h"
 #include "corpus/campaigns/shell.h"
-#include "corpus/models/sha256.h"
+#include "reports/sha256.h"
 
 namespace tetproof {
 namespace {

@@ -10,8 +10,8 @@
 #include "corpus/campaigns/process.h"
 #include "corpus/cli/commands.h"
 #include "corpus/models/classify.h"
-#include "corpus/models/csv.h"
 #include "corpus/models/files.h"
+#include "reports/csv.h"
 
 namespace tetproof {
 namespace {

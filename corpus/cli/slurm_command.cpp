@@ -7,8 +7,8 @@
 #include "corpus/campaigns/slurm.h"
 #include "corpus/cli/commands.h"
 #include "corpus/models/models.h"
-#include "corpus/models/sha256.h"
 #include "reports/results.h"
+#include "reports/sha256.h"
 
 namespace tetproof {
 namespace {
@@ -90,11 +90,11 @@ int slurm_command(const SlurmArguments& arguments) {
   }
   demand_folder_of(run.database, "--db");
   SlurmCampaign campaign;
-  Sha256 models;
+  std::string models;
   for (const Model& model : collect_models({run.paths.begin(), run.paths.end()}).models) {
-    models.update(model.sha256.data(), model.sha256.size());
+    models += model.sha256;
   }
-  campaign.models = models.finish();
+  campaign.models = sha256_of(models);
   campaign.folder = fs::absolute(run.database).string() + ".slurm";
   campaign.task = task_of(run);
   campaign.shards = arguments.shards;

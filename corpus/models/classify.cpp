@@ -16,7 +16,7 @@
 #include "corpus/campaigns/campaign.h"
 #include "corpus/campaigns/disposition.h"
 #include "corpus/campaigns/process.h"
-#include "corpus/models/csv.h"
+#include "reports/csv.h"
 #include "reports/table.h"
 
 namespace tetproof {

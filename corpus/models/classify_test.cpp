@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "corpus/models/csv.h"
+#include "reports/csv.h"
 
 namespace tetproof {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "corpus/models/sha256.h"
 #include "oracles/base/text_reader.h"
+#include "reports/sha256.h"
 
 namespace tetproof {
 namespace {

@@ -12,11 +12,11 @@
 
 #include "corpus/campaigns/process.h"
 #include "corpus/campaigns/shell.h"
-#include "corpus/models/sha256.h"
 #include "corpus/peers/peers.h"
 #include "mesher/delmesher/option_table.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
+#include "reports/sha256.h"
 
 namespace tetproof {
 namespace {

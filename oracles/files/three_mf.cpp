@@ -1,12 +1,13 @@
 #include "oracles/files/three_mf.h"
 
 #include <gmpxx.h>
-#include <zlib.h>
+#include <zip.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
+#include <memory>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -22,121 +23,55 @@ namespace {
 
 class Archive {
  public:
-  Archive(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {
-    // Behind it there is a comment, which could look like it.
-    std::size_t end = bytes_.rfind("PK\x05\x06");
-    while (end != std::string_view::npos && bytes_.size() - end < 22) {
-      end = end == 0 ? std::string_view::npos : bytes_.rfind("PK\x05\x06", end - 1);
-    }
-    if (end == std::string_view::npos) fail("an archive without a directory");
-    std::uint64_t at = number(end + 16, 4), count = number(end + 10, 2);
-    if (at == 0xffffffffU || count == 0xffff) {  // the numbers of 64 bits are in front of it
-      if (end < 20) fail("an archive without a directory");
-      const std::uint64_t wide = number(end - 12, 8);
-      count = number(wide + 32, 8);
-      at = number(wide + 48, 8);
-    }
-    for (; count > 0; --count) at = read_entry(at);
+  Archive(const std::string& path, std::string_view bytes) : path_(path) {
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    if (source == nullptr) throw std::bad_alloc();
+    // Checked for consistency: also for a name that is twice in it.
+    archive_.reset(zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error));
+    if (archive_ != nullptr) return;
+    zip_source_free(source);
+    fail("an archive that cannot be read: " + std::string(zip_error_strerror(&error)));
   }
 
-  bool contains(const std::string& name) const { return entries_.contains(key_of(name)); }
+  bool contains(const std::string& name) const { return place_of(name) >= 0; }
 
   std::string contents(const std::string& name) const {
-    const auto found = entries_.find(key_of(name));
-    if (found == entries_.end()) fail("there is no " + name + " in the archive");
-    const Entry& entry = found->second;
-    const std::uint64_t begin =
-        entry.header + 30 + number(entry.header + 26, 2) + number(entry.header + 28, 2);
-    const std::string_view packed = part(begin, entry.packed);
-    std::string text = entry.method == 0 ? std::string(packed) : inflated(packed, entry.size);
-    const auto sum =
-        crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<z_size_t>(text.size()));
-    if (text.size() != entry.size || sum != entry.sum) fail(name + " is damaged");
+    const zip_int64_t place = place_of(name);
+    if (place < 0) fail("there is no " + name + " in the archive");
+    zip_stat_t entry;
+    const auto index = static_cast<zip_uint64_t>(place);
+    if (zip_stat_index(archive_.get(), index, 0, &entry) != 0 ||
+        entry.size / 1032 > entry.comp_size) {
+      fail(name + " has a size that cannot be");
+    }
+    std::string text(entry.size, '\0');
+    const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(
+        zip_fopen_index(archive_.get(), index, 0), &zip_fclose);
+    char beyond = 0;  // the sum of the bytes is looked at where they end
+    if (file == nullptr ||
+        zip_fread(file.get(), text.data(), text.size()) != static_cast<zip_int64_t>(text.size()) ||
+        zip_fread(file.get(), &beyond, 1) != 0) {
+      fail(name + " is damaged or encrypted");
+    }
     return text;
   }
 
  private:
-  struct Entry {
-    std::uint64_t method = 0, sum = 0, packed = 0, size = 0, header = 0;
-  };
-
   [[noreturn]] void fail(const std::string& reason) const {
     throw ReadError(path_ + ": " + reason);
   }
-  std::string_view part(std::uint64_t at, std::uint64_t size) const {
-    if (at > bytes_.size() || size > bytes_.size() - at) fail("an archive that is cut");
-    return bytes_.substr(at, size);
-  }
-  std::uint64_t number(std::uint64_t at, std::size_t size) const {
-    const std::string_view raw = part(at, size);
-    std::uint64_t value = 0;
-    for (std::size_t i = size; i > 0; --i) {
-      value = value << 8U | static_cast<unsigned char>(raw[i - 1]);
-    }
-    return value;
-  }
-  // Without regard to case, and to a slash in front.
-  static std::string key_of(const std::string& name) {
-    std::string key = name.substr(name.starts_with('/') ? 1 : 0);
-    std::transform(key.begin(), key.end(), key.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return key;
-  }
-
-  // Returns where the next one is.
-  std::uint64_t read_entry(std::uint64_t at) {
-    if (number(at, 4) != 0x02014b50) fail("a damaged directory of the archive");
-    if ((number(at + 8, 2) & 1U) != 0) fail("an encrypted archive");
-    Entry entry;
-    entry.method = number(at + 10, 2);
-    entry.sum = number(at + 16, 4);
-    if (entry.method != 0 && entry.method != Z_DEFLATED) fail("an unknown compression");
-    const std::uint64_t name = number(at + 28, 2), extra = number(at + 30, 2);
-    std::uint64_t wide = wide_numbers(at + 46 + name, extra);
-    const auto size_at = [&](std::uint64_t place) {
-      const std::uint64_t value = number(place, 4);
-      if (value != 0xffffffffU || wide == 0) return value;
-      wide += 8;
-      return number(wide - 8, 8);
-    };
-    entry.size = size_at(at + 24);
-    entry.packed = size_at(at + 20);
-    entry.header = size_at(at + 42);
-    if (!entries_.emplace(key_of(std::string(part(at + 46, name))), entry).second) {
-      fail("a name that is twice in the archive");
-    }
-    return at + 46 + name + extra + number(at + 32, 2);
-  }
-  // Where they are; 0 if there are none.
-  std::uint64_t wide_numbers(std::uint64_t at, std::uint64_t size) const {
-    const std::uint64_t end = at + size;
-    while (at + 4 <= end) {
-      if (number(at, 2) == 1) return at + 4;
-      at += 4 + number(at + 2, 2);
-    }
-    return 0;
-  }
-
-  std::string inflated(std::string_view packed, std::uint64_t size) const {
-    if (size / 1032 > packed.size()) fail("a size that cannot be");
-    std::string text(size, '\0');
-    z_stream stream{};
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-    stream.avail_in = static_cast<uInt>(packed.size());
-    stream.next_out = reinterpret_cast<Bytef*>(text.data());
-    stream.avail_out = static_cast<uInt>(size);
-    const bool whole = stream.avail_in == packed.size() && stream.avail_out == size;
-    const bool good = whole && inflateInit2(&stream, -MAX_WBITS) == Z_OK &&
-                      inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_in == 0;
-    inflateEnd(&stream);
-    if (!good) fail("a file of the archive that cannot be unpacked");
-    return text;
+  // Without regard to case, and to a slash in front; negative if there is none.
+  zip_int64_t place_of(const std::string& name) const {
+    const std::string plain = name.substr(name.starts_with('/') ? 1 : 0);
+    const zip_int64_t place = zip_name_locate(archive_.get(), plain.c_str(), ZIP_FL_NOCASE);
+    return place >= 0 ? place
+                      : zip_name_locate(archive_.get(), ("/" + plain).c_str(), ZIP_FL_NOCASE);
   }
 
   const std::string& path_;
-  std::string_view bytes_;
-  std::map<std::string, Entry> entries_;
+  std::unique_ptr<zip_t, decltype(&zip_discard)> archive_{nullptr, &zip_discard};
 };
 
 // -------------------------------------------------------------------------------------- the model

@@ -1,4 +1,4 @@
-#include "corpus/models/csv.h"
+#include "reports/csv.h"
 
 #include <fstream>
 #include <iterator>
