@@ -89,6 +89,8 @@ constexpr Peer kPeers[] = {
      kMesh3From},
     {"cgal-ccdt", "tetproof-cgal-ccdt", "-", ".mesh", "hull", 0, 0, "GPL-3.0", kCcdtFrom},
     wheel("tetgen-1.6", "tetgen", "adapters/wheels/tetgen_wheel.py", "pqQ", kTetGen, "AGPL-3.0"),
+    wheel("tetgen-1.6-T0", "tetgen", "adapters/wheels/tetgen_wheel.py", "pcqT0Q", kExact,
+          "AGPL-3.0"),
     wheel("tetgen-1.6-Y", "tetgen", "adapters/wheels/tetgen_wheel.py", "pYqQ", kExact, "AGPL-3.0"),
     wheel("gmsh-4.15-delaunay", "gmsh", "adapters/wheels/gmsh_wheel.py", "Mesh.Algorithm3D=1",
           kExact, "GPL-2.0"),
