@@ -120,8 +120,10 @@ void RoundedMesh::find_pinched() {
   for (TetId t = 0; t < slots(); ++t) {
     for (const std::uint32_t v : tet(t)) ++degree[v];
   }
+  std::vector<TetId> star;
   for (std::uint32_t v = 0; v < vertices(); ++v) {
-    if (star(v).size() < degree[v]) pinched_[v];
+    topology_->star(v, star);
+    if (star.size() < degree[v]) pinched_[v];
   }
   for (TetId t = 0; t < slots() && !pinched_.empty(); ++t) {
     for (const std::uint32_t v : tet(t)) {
