@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -16,6 +19,7 @@ namespace tetproof {
 namespace {
 
 constexpr const char* kOther = "other";
+constexpr const char* kOurs = "delmesher";
 
 bool fits(const char* pattern, const char* text) {
   if (*pattern == 0) return *text == 0;
@@ -40,6 +44,68 @@ std::string rate_of(std::size_t successes, std::size_t runs) {
                      100 * wilson.low, 100 * wilson.high);
 }
 
+// Medians over runs.
+struct Median {
+  const char* head;
+  Value value;
+  int digits;
+};
+std::vector<Median> medians() {
+  return {{"tets", of_solid(&MeshColumns::tetrahedra), 0},
+          {"min dihedral", of_solid(&MeshColumns::min_dihedral), 2},
+          {"1 % of dihedrals", of_solid(&MeshColumns::dihedral_percent), 1},
+          {"min face angle", of_solid(&MeshColumns::min_face_angle), 2},
+          {"mean gamma", of_solid(&MeshColumns::mean_gamma), 3},
+          {"s", wall_seconds(), 2},
+          {"MB", peak_megabytes(), 0}};
+}
+
+void append_medians(const Rows& rows, std::vector<std::string>& cells) {
+  for (const Median& m : medians()) {
+    cells.push_back(fixed(quantile(values_of(rows, m.value), 0.5), m.digits));
+  }
+}
+void append_medians(std::vector<std::string>& header) {
+  for (const Median& m : medians()) header.emplace_back(m.head);
+}
+
+Rows runs_on(const Selection& selection, const std::string& mesher,
+             const std::vector<std::string>& models) {
+  Rows rows;
+  for (const std::string& model : models) rows.push_back(selection.run(mesher, model));
+  return rows;
+}
+
+// The median of what `theirs` is times `ours`, run by run.
+std::optional<double> median_ratio(const Rows& theirs, const Rows& ours, const Value& value) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const auto a = value(*ours[i]), b = value(*theirs[i]);
+    if (a && b && *a != 0) ratios.push_back(*b / *a);
+  }
+  return median(std::move(ratios));
+}
+
+// Disposition and last words, without numbers and without the name of the model; of a wrong
+// result the oracle's name.
+std::string kind_of(const RunRow& row) {
+  const std::string name = disposition_name(row.disposition);
+  if (row.disposition == Disposition::timeout || row.disposition == Disposition::out_of_memory) {
+    return name;
+  }
+  std::string reason = row.reason;
+  const std::string model = short_name(row.model_name);
+  for (std::size_t at = 0; (at = reason.find(model, at)) != std::string::npos;) {
+    reason.replace(at, model.size(), "MODEL");
+    at += 5;
+  }
+  static const std::regex kOracle("verify: (\\w+: [\\w -]+):[^]*");
+  static const std::regex kNumber("-?\\d+(\\.\\d+)?(e[-+]?\\d+)?");
+  std::smatch oracle;
+  if (std::regex_match(reason, oracle, kOracle)) return name + ": " + oracle[1].str();
+  return name + ": " + std::regex_replace(reason, kNumber, "#");
+}
+
 std::vector<std::string> league_row(const Selection& selection, const std::string& mesher) {
   const Rows successes = selection.ok_runs(mesher);
   const std::size_t runs = run_count(selection, mesher);
@@ -50,15 +116,10 @@ std::vector<std::string> league_row(const Selection& selection, const std::strin
   const auto add = [&](const Value& value, double p, int digits) {
     row.push_back(fixed(quantile(values_of(successes, value), p), digits));
   };
-  add(of_solid(&MeshColumns::tetrahedra), 0.5, 0);
-  add(of_solid(&MeshColumns::min_dihedral), 0.5, 2);
-  add(of_solid(&MeshColumns::dihedral_percent), 0.5, 1);
+  append_medians(successes, row);
   add(of_solid(&MeshColumns::gamma_percent), 0.5, 3);
-  add(of_solid(&MeshColumns::mean_gamma), 0.5, 3);
-  add(wall_seconds(), 0.5, 2);
   add(wall_seconds(), 0.95, 2);
   add(process_microseconds(), 0.5, 0);
-  add(peak_megabytes(), 0.5, 0);
   return row;
 }
 
@@ -129,10 +190,9 @@ Table league_table(const Selection& selection) {
   table.caption = limits_caption(selection, selection.meshers);
   table.header = {"Mesher", "Promise", "Runs", "Ok", "Ok, % (95 % interval)"};
   append_dispositions(table.header);
-  for (const char* name : {"tets", "min dihedral", "1 % of dihedrals", "1 % of gamma", "mean gamma",
-                           "s", "s, 95 %", "us per tet", "MB"}) {
+  append_medians(table.header);
+  for (const char* name : {"1 % of gamma", "s, 95 %", "us per tet"})
     table.header.emplace_back(name);
-  }
   for (const std::string& mesher : by_success(selection)) {
     table.rows.push_back(league_row(selection, mesher));
   }
@@ -147,6 +207,131 @@ Table league_table(const Selection& selection) {
       "file tells them apart; microseconds are per tetrahedron written. Seconds are " +
           selection.clock + " seconds of the whole process.",
       kGammaNote};
+  return table;
+}
+
+std::vector<Table> group_tables(const Selection& selection) {
+  static const std::pair<const char*, std::vector<std::string>> kGroups[] = {
+      {"of today",
+       {"delmesher", "tetgen-1.6-Y", "gmsh-4.15-delaunay", "gmsh-4.15-hxt", "netgen-6.2.26",
+        "mmg3d-nosurf"}},
+      {"of the paper and its own program", {"delmesher-e4", "published-e4"}},
+      {"optimized", {"delmesher", "gmsh-delaunay", "gmsh-hxt", "netgen"}},
+      {"without optimization", {"delmesher-e4", "gmsh-delaunay-raw", "gmsh-hxt-raw", "netgen-raw"}},
+      {"with TetGen", {"delmesher", "delmesher-e4", "tetgen", "tetgen-T0"}},
+      {"with a surface of their own",
+       {"delmesher", "cgal-mesh3", "cgal-mesh3-raw", "mmg3d", "ftetwild", "wildmeshing",
+        "tetwild"}}};
+  std::vector<Table> tables;
+  for (const auto& [name, all] : kGroups) {
+    std::vector<std::string> members;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(members),
+                 [&](const auto& m) { return !selection.ok_runs(m).empty(); });
+    const auto common = selection.common_models(members);
+    if (members.size() < 2 || common.empty()) continue;
+    Table& table = tables.emplace_back();
+    table.name = fmt::format("league-group-{}", tables.size());
+    table.title =
+        fmt::format("Those {}, on the {} models on which all of them succeed", name, common.size());
+    table.header = {"Mesher"};
+    append_medians(table.header);
+    for (const std::string& mesher : members) {
+      append_medians(runs_on(selection, mesher, common), table.rows.emplace_back(1, mesher));
+    }
+  }
+  return tables;
+}
+
+Table pair_table(const Selection& selection) {
+  Table table;
+  table.name = "league-pairs";
+  table.title = "Each beside ours";
+  table.header = {"Mesher",
+                  "Models",
+                  "only ours ok",
+                  "only it ok",
+                  "both ok",
+                  "tets, it / ours",
+                  "s, it / ours",
+                  "MB, it / ours",
+                  "min dihedral, ours",
+                  "it",
+                  "mean gamma, ours",
+                  "it",
+                  "smallest dihedral larger with ours, %"};
+  const Value tets = of_solid(&MeshColumns::tetrahedra), gamma = of_solid(&MeshColumns::mean_gamma),
+              dihedral = of_solid(&MeshColumns::min_dihedral);
+  for (const std::string& mesher : selection.meshers) {
+    if (mesher == kOurs || !selection.has(kOurs)) continue;
+    std::size_t asked = 0, only_ours = 0, only_it = 0, better = 0;
+    for (const std::string& model : selection.models) {
+      if (selection.run(kOurs, model) == nullptr || selection.run(mesher, model) == nullptr)
+        continue;
+      const bool a = selection.ok_run(kOurs, model) != nullptr;
+      const bool b = selection.ok_run(mesher, model) != nullptr;
+      ++asked;
+      only_ours += a && !b;
+      only_it += b && !a;
+    }
+    const auto common = selection.common_models({kOurs, mesher});
+    const Rows a = runs_on(selection, kOurs, common), b = runs_on(selection, mesher, common);
+    for (std::size_t i = 0; i < a.size(); ++i) better += dihedral(*a[i]) > dihedral(*b[i]);
+    std::vector<std::string> row = {mesher, std::to_string(asked), std::to_string(only_ours),
+                                    std::to_string(only_it), std::to_string(common.size())};
+    for (const Value& value : {tets, wall_seconds(), peak_megabytes()}) {
+      row.push_back(fixed(median_ratio(b, a, value), 2));
+    }
+    for (const auto& [value, digits] : {std::pair(dihedral, 1), std::pair(gamma, 3)}) {
+      for (const Rows& side : {a, b}) row.push_back(fixed(median(values_of(side, value)), digits));
+    }
+    row.push_back(common.empty() ? "-"
+                                 : fmt::format("{:.0f}", 100.0 * static_cast<double>(better) /
+                                                             static_cast<double>(common.size())));
+    table.rows.push_back(std::move(row));
+  }
+  table.notes = {
+      "delmesher compared with each other mesher: models on which only one of them succeeds; then, "
+      "over the models of both, medians of ratios and values."};
+  return table;
+}
+
+Table failure_kinds(const Selection& selection) {
+  constexpr std::size_t kMostKinds = 2, kMostLetters = 120, kMostModels = 3;
+  Table table;
+  table.name = "league-failures";
+  table.title = "How they fail";
+  table.header = {"Mesher", "How", "Runs", "For example"};
+  for (const std::string& mesher : selection.meshers) {
+    std::map<std::string, std::vector<std::string>> kinds;  // models, in their order
+    for (const std::string& model : selection.models) {
+      const RunRow* row = selection.run(mesher, model);
+      if (row == nullptr || row->disposition == Disposition::ok) continue;
+      kinds[kind_of(*row)].push_back(short_name(row->model_name));
+    }
+    std::vector<std::pair<std::string, std::vector<std::string>>> listed(kinds.begin(),
+                                                                         kinds.end());
+    std::stable_sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) {
+      return a.second.size() > b.second.size();
+    });
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      auto& [kind, models] = listed[i];
+      others += i < kMostKinds ? 0 : models.size();
+      if (i >= kMostKinds) continue;
+      const std::size_t count = models.size();
+      models.resize(std::min(count, kMostModels));
+      table.rows.push_back(
+          {mesher, kind.substr(0, kMostLetters), std::to_string(count),
+           fmt::format("{}{}", fmt::join(models, ", "), count > kMostModels ? ", ..." : "")});
+    }
+    if (others > 0) {
+      table.rows.push_back({mesher, fmt::format("{} other kinds", listed.size() - kMostKinds),
+                            std::to_string(others), ""});
+    }
+  }
+  table.notes = {
+      "The most frequent kinds of failure, without numbers; for a wrong result the oracle that "
+      "objects."};
   return table;
 }
 
@@ -178,27 +363,48 @@ Table family_table(const Selection& selection, const Families& families) {
 }
 
 Table solver_table(const Selection& selection) {
+  struct Measure {
+    const char* head;
+    Value value;
+    int digits;
+  };
+  const Measure measures[] = {
+      {"iterations / n^(1/3)",
+       of_solver([](const SolverColumns& s) { return static_cast<double>(s.iterations); },
+                 -1.0 / 3),
+       2},
+      {"condition / n^(2/3)",
+       of_solver([](const SolverColumns& s) { return s.condition; }, -2.0 / 3), 2},
+      {"error x n^(2/3)", of_solver([](const SolverColumns& s) { return s.mean_error; }, 2.0 / 3),
+       3}};
+  const Value unknowns =
+      of_solver([](const SolverColumns& s) { return static_cast<double>(s.unknowns); }, 0);
   Table table;
   table.name = "league-solver";
   table.title = "What a solver sees";
-  table.header = {
-      "Mesher",         "Meshes", "unknowns n", "iterations / n^(1/3)", "condition / n^(2/3)",
-      "error x n^(2/3)"};
-  const Value unknowns =
-      of_solver([](const SolverColumns& s) { return static_cast<double>(s.unknowns); }, 0);
-  const Value iterations =
-      of_solver([](const SolverColumns& s) { return static_cast<double>(s.iterations); }, -1.0 / 3);
-  const Value condition = of_solver([](const SolverColumns& s) { return s.condition; }, -2.0 / 3);
-  const Value error = of_solver([](const SolverColumns& s) { return s.mean_error; }, 2.0 / 3);
+  table.header = {"Mesher", "Meshes", "unknowns n"};
+  for (const Measure& m : measures) table.header.emplace_back(m.head);
+  table.header.emplace_back("meshes in common with delmesher");
+  for (const Measure& m : measures) table.header.push_back(std::string(m.head) + ", it / ours");
   for (const std::string& mesher : by_success(selection)) {
     const Rows successes = selection.ok_runs(mesher);
     const std::size_t meshes = values_of(successes, unknowns).size();
     if (meshes == 0) continue;
-    const auto median_of = [&](const Value& value, int digits) {
-      return fixed(quantile(values_of(successes, value), 0.5), digits);
-    };
-    table.rows.push_back({mesher, std::to_string(meshes), median_of(unknowns, 0),
-                          median_of(iterations, 2), median_of(condition, 2), median_of(error, 3)});
+    std::vector<std::string> row = {mesher, std::to_string(meshes),
+                                    fixed(median(values_of(successes, unknowns)), 0)};
+    for (const Measure& m : measures) {
+      row.push_back(fixed(median(values_of(successes, m.value)), m.digits));
+    }
+    Rows ours, theirs;
+    for (const std::string& model : selection.common_models({kOurs, mesher})) {
+      const RunRow *a = selection.run(kOurs, model), *b = selection.run(mesher, model);
+      if (!unknowns(*a) || !unknowns(*b)) continue;
+      ours.push_back(a);
+      theirs.push_back(b);
+    }
+    row.push_back(std::to_string(ours.size()));
+    for (const Measure& m : measures) row.push_back(fixed(median_ratio(theirs, ours, m.value), 2));
+    table.rows.push_back(std::move(row));
   }
   table.notes = {
       "Poisson's equation with linear elements on the tetrahedra inside, for a solution that is "

@@ -36,6 +36,15 @@ class Families {
 // A row per mesher, the most successful first.
 Table league_table(const Selection& selection);
 
+// Meshers of a kind, each kind on the models on which all of it succeed.
+std::vector<Table> group_tables(const Selection& selection);
+
+// delmesher beside each other mesher: who succeeds alone, and both on the models of both.
+Table pair_table(const Selection& selection);
+
+// How runs fail: the most frequent kinds of each mesher.
+Table failure_kinds(const Selection& selection);
+
 // Successes of runs, a row per family. No rows without families.
 Table family_table(const Selection& selection, const Families& families);
 

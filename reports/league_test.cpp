@@ -111,6 +111,47 @@ TEST_F(League, ASolverComparesAtEqualUnknowns) {
   EXPECT_EQ(found.at("cdt").at("error x n^(2/3)"), "0.400");
 }
 
+// Of a, b and c, all three mesh a and c, in 500 and 10000 and in 1500 and 30000 tetrahedra.
+TEST_F(League, MeshersOfAKindAreComparedOnWhatAllOfThemMesh) {
+  const std::vector<Table> groups = group_tables(campaign());
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups[0].title, "Those with TetGen, on the 1 models on which all of them succeed");
+  const auto found = cells(groups[0]);
+  EXPECT_EQ(found.size(), 3U);
+  EXPECT_EQ(found.at("delmesher-e4").at("tets"), "500");  // inside
+  EXPECT_EQ(found.at("tetgen").at("tets"), "200");
+}
+
+TEST_F(League, PairsTellWhoSucceedsAlone) {
+  Selection selection = campaign();
+  EXPECT_TRUE(pair_table(selection).rows.empty());
+  selection.runs["delmesher"] = selection.runs.at("delmesher-e4");
+  selection.meshers.emplace_back("delmesher");
+  const auto found = cells(pair_table(selection));
+  EXPECT_EQ(found.at("tetgen").at("Models"), "3");
+  EXPECT_EQ(found.at("tetgen").at("only ours ok"), "0");
+  EXPECT_EQ(found.at("tetgen").at("both ok"), "2");
+  EXPECT_EQ(found.at("cdt").at("only it ok"), "1");
+  EXPECT_EQ(found.at("tetgen").at("tets, it / ours"), "0.40");  // 200 of 500, 4000 of 10000
+}
+
+TEST_F(League, FailuresOfAKindAreCountedTogether) {
+  Selection selection = campaign();
+  auto& runs = selection.runs.at("tetgen-T0");
+  for (auto& [model, row] : runs) row.model_name = "m" + row.model_name + ".off";
+  runs.at("hash-b").reason = "mb.off: 7 points, 1.5e-3 apart";
+  runs.at("hash-c").reason = "mc.off: 8 points, 2 apart";
+  selection.runs.at("cdt").at("hash-a").disposition = Disposition::wrong_result;
+  selection.runs.at("cdt").at("hash-a").reason = "verify: broken: conformity: edge 1\nis gone";
+  const Table table = failure_kinds(selection);
+  const auto has = [&](const std::vector<std::string>& row) {
+    return std::find(table.rows.begin(), table.rows.end(), row) != table.rows.end();
+  };
+  EXPECT_TRUE(has({"tetgen-T0", "rejected: MODEL.off: # points, # apart", "2", "mb, mc"}));
+  EXPECT_TRUE(has({"cdt", "wrong-result: broken: conformity", "1", "a"}));
+  EXPECT_TRUE(has({"delmesher-e4", "timeout", "1", "b"}));
+}
+
 TEST_F(League, WrongResultsComeWithTheOraclesSentence) {
   Selection selection = campaign();
   EXPECT_TRUE(wrong_result_table(selection).rows.empty());

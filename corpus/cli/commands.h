@@ -62,6 +62,8 @@ struct UnionArguments {
 struct ReportArguments {
   std::vector<std::string> databases, base, show;
   std::string folder, model, families;
+  std::string league, commit;  // the page of the league, instead of a folder
+  std::vector<std::string> left_out;
   std::size_t views = 10;
   bool processor_time = false, history = false;
 };

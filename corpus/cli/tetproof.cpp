@@ -86,7 +86,14 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
   app->add_option("databases", a.databases, "Results of tetproof run")
       ->required()
       ->check(CLI::ExistingFile);
-  app->add_option("-o,--output", a.folder, "Folder of the report")->required();
+  app->add_option("-o,--output", a.folder, "Folder of the report");
+  CLI::Option* league = app->add_option("--league", a.league,
+                                        "Write this page of the league (.md), and its runs beside "
+                                        "it (.csv), instead of a report; the "
+                                        ".csv of an earlier page may be among the results");
+  app->add_option("--commit", a.commit, "With --league: of which our own programs are")
+      ->needs(league);
+  app->add_option("--drop", a.left_out, "With --league: a mesher to leave out")->needs(league);
   app->add_option("--base", a.base, "Results to compare with: meshers NAME@base")
       ->check(CLI::ExistingFile);
   app->add_option("--model", a.model, "Model of Table 3 and Figure 13, by name");
