@@ -120,8 +120,12 @@ ExactResult read_exact(const std::string& path);
 // The reason why a file could not be written, "file: reason"; empty if all is well.
 struct WriteStatus {
   std::string error;
+  std::vector<std::string> warnings = {};  // of what the format cannot hold, a line each
   bool ok() const { return error.empty(); }
 };
+
+// Of Gmsh's .msh: MFEM, GetDP, Palace and others read 2.2 alone, which is always text.
+enum class MshVersion : std::uint8_t { v4_1, v2_2 };
 
 struct WriteOptions {
   // 2: ten-node tetrahedra and six-node triangles with straight edges, whose further nodes are in
@@ -129,12 +133,13 @@ struct WriteOptions {
   int order = 1;
   // As text where a format has both, .msh and .vtu; else as bytes.
   bool ascii = false;
+  MshVersion msh = MshVersion::v4_1;
   // The names of TetMesh::regions.
   LabelNames region_names = {};
 };
 
 // Each file, or set of files, is complete or what it was before. The format is that of the
-// extension: .mesh (MEDIT), .msh (Gmsh 4.1), .vtu, .node (TetGen, with .ele and .face beside it),
+// extension: .mesh (MEDIT), .msh (Gmsh), .vtu, .node (TetGen, with .ele and .face beside it),
 // .tet, .inp (Abaqus), .bdf (Nastran), .vtk (legacy), .xdmf, and of the boundary alone .stl, .ply
 // and .off. formats.md says where names are written; of equal ones all but the first get a number.
 WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names = {},

@@ -292,6 +292,8 @@ const Lie kLies[] = {
     {"msh", "a side of a label and of a group without a name", " 1 11 0\n", " 2 11 77 0\n", 0, 1},
     {"msh", "a solid in no group", "\n(1( \\S+){6}) 1 1 ", "\n$1 0 ", 0, 1},
     {"msh", "a solid that is inside and outside", "\n(1( \\S+){6}) 1 1 ", "\n$1 2 1 2 "},
+    {"msh", "a label and the solid with one tag", "\n3 1 (\"inside\"[^]*\n1( \\S+){6}) 1 1 ",
+     "\n3 11 $1 1 11 ", 0, 1},
     {"msh", "a label that wraps around", "\"label 11\"", "\"label 4294967307\""},
     {"msh", "names of the sides exchanged", "\"inside\"([^]*)\"outside\"",
      "\"outside\"$1\"inside\"", 0, 1},

@@ -73,6 +73,25 @@ def areas(points, triangles, labels):
     return dict(sums)
 
 
+# The Laplacian between the labels 1 and 2, in the region 4.
+GETDP = """
+Group { Bottom = Region[1]; Top = Region[2]; Inside = Region[4]; Both = Region[{Bottom, Top}]; Whole = Region[{Inside, Both}]; }
+Jacobian { { Name J; Case { { Region Inside; Jacobian Vol; } { Region Both; Jacobian Sur; } } } }
+Integration { { Name I; Case { { Type Gauss; Case { { GeoElement Tetrahedron; NumberOfPoints 4; } { GeoElement Triangle; NumberOfPoints 3; } } } } } }
+Constraint { { Name C; Case { { Region Bottom; Value 0; } { Region Top; Value 1; } } } }
+FunctionSpace { { Name V; Type Form0; BasisFunction { { Name s; NameOfCoef v; Function BF_Node; Support Whole; Entity NodesOf[Whole]; } }
+  Constraint { { NameOfCoef v; EntityType NodesOf; NameOfConstraint C; } } } }
+Formulation { { Name F; Type FemEquation; Quantity { { Name v; Type Local; NameOfSpace V; } }
+  Equation { Galerkin { [Dof{d v}, {d v}]; In Inside; Jacobian J; Integration I; } } } }
+Resolution { { Name R; System { { Name A; NameOfFormulation F; } } Operation { Generate[A]; Solve[A]; SaveSolution[A]; } } }
+PostProcessing { { Name P; NameOfFormulation F; Quantity {
+  { Name volume; Value { Integral { [1]; In Inside; Jacobian J; Integration I; } } }
+  { Name energy; Value { Integral { [SquNorm[{d v}]]; In Inside; Jacobian J; Integration I; } } } } } }
+PostOperation { { Name O; NameOfPostProcessing P; Operation {
+  Print[volume[Inside], OnGlobal, Format Table, File "%s"]; Print[energy[Inside], OnGlobal, Format Table, File > "%s"]; } } }
+"""
+
+
 class Read(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -124,7 +143,116 @@ class Read(unittest.TestCase):
         self.same_solid(mesh)
         self.same_triangles(mesh, of_cells(mesh, "gmsh:physical", "triangle"))
         names = {tuple(tag): name for name, tag in mesh.field_data.items()}
-        self.assertEqual(names, {(1, 2): "bottom wall", (2, 2): "'top' & <lid>", (3, 2): "side", (1, 3): "inside"})
+        self.assertEqual(names, {(1, 2): "bottom wall", (2, 2): "'top' & <lid>", (3, 2): "side", (4, 3): "inside"})
+
+    def test_gmsh_2_2(self):
+        """The same cells and names as in 4.1; of second order as well."""
+        for name, kinds in (("old.msh", ("tetra", "triangle")), ("old_ten.msh", ("tetra10", "triangle6"))):
+            order = "2" if "ten" in name else "1"
+            subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", "--order", order, "--msh", "2.2", "-o", path(name)],
+                           check=True)
+            with open(path(name)) as file:
+                self.assertEqual(file.read(24), "$MeshFormat\n2.2 0 8\n$End")
+            old, new = meshio.read(path(name)), meshio.read(path("ten.msh" if order == "2" else "box.msh"))
+            self.assertTrue(numpy.array_equal(old.points, new.points))
+            self.assertEqual({n: tuple(t) for n, t in old.field_data.items()}, {n: tuple(t) for n, t in new.field_data.items()})
+            for kind in kinds:
+                self.assertTrue(numpy.array_equal(cells(old, kind), cells(new, kind)), kind)
+                for data in ("gmsh:physical", "gmsh:geometrical"):
+                    self.assertTrue(numpy.array_equal(of_cells(old, data, kind), of_cells(new, data, kind)), data)
+            done = subprocess.run(["gmsh", "-0", path(name), "-o", path("unused.msh"), "-v", "2"], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+            if order == "1":
+                self.assertEqual(self.improved(name), self.improved("box.msh"))
+
+    def solved_by_getfem(self, name):
+        import getfem  # says so if a file is not as it should be
+
+        getfem.util_trace_level(1)
+        mesh = getfem.Mesh("import", "gmsh", path(name))
+        space, integration = getfem.MeshFem(mesh, 1), getfem.MeshIm(mesh, 4)
+        space.set_classical_fem(1)
+        model = getfem.Model("real")
+        model.add_fem_variable("u", space)
+        model.add_Laplacian_brick(integration, "u", 4)
+        model.add_initialized_data("one", [1.0])
+        model.add_Dirichlet_condition_with_multipliers(integration, "u", space, 1)
+        model.add_Dirichlet_condition_with_multipliers(integration, "u", space, 2, "one")
+        model.solve()
+        integral = lambda text, region: getfem.asm_generic(integration, 0, text, region, model)
+        self.assertEqual(sorted(mesh.regions()), [1, 2, 3, 4])
+        for label, area in AREAS.items():
+            self.assertAlmostEqual(integral("1", label), area, places=9)
+        return integral("1", 4), integral("Grad_u.Grad_u", 4)
+
+    def solved_by_getdp(self, name):
+        problem = path("problem.pro")
+        with open(problem, "w") as file:
+            file.write(GETDP % ((path("energy.txt"),) * 2))
+        done = subprocess.run(["getdp", problem, "-msh", path(name), "-solve", "R", "-pos", "O", "-v", "2"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with open(path("energy.txt")) as file:
+            return [float(word) for word in file.read().split()[1::2]]
+
+    def test_solvers_tell_regions_from_labels(self):
+        """A potential of 0 at the bottom and 1 at the top: volume, and energy area / height."""
+        subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", "--msh", "2.2", "-o", path("solved.msh")], check=True)
+        for found in self.solved_by_getfem("solved.msh"), self.solved_by_getdp("solved.msh"):
+            self.assertAlmostEqual(found[0], VOLUME, places=8)
+            self.assertAlmostEqual(found[1], 2 / HEIGHT, places=8)
+
+    def test_nothing_is_lost_without_a_word(self):
+        """Formats x contents: what is not found in a file again, a warning said. A box whose six sides have labels and names, in two regions."""
+        def sets(file, kind, data):
+            values = of_cells(file, data, kind) if data in file.cell_data else []
+            return len(set(numpy.ravel(values)))
+
+        subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", "--msh", "2.2", "-o", path("parts.msh")], check=True)
+        with open(path("parts.msh")) as file:
+            lines = file.read().split("\n")
+        begin = lines.index("$Elements") + 2
+        for i in range(begin, lines.index("$EndElements")):
+            words = lines[i].split()
+            if words[1] == "4" and int(words[0]) % 2:
+                words[3] = words[4] = "5"
+                lines[i] = " ".join(words)
+        count = lines.index("$PhysicalNames") + 1
+        lines[count:count + 1] = ["5", '3 5 "rubber"']
+        lines[lines.index('3 4 "inside"')] = '3 4 "steel"'
+        with open(path("parts.msh"), "w") as file:
+            file.write("\n".join(lines))
+        data = {"mesh": "medit:ref", "msh": "gmsh:physical", "vtu": "region", "vtk": "region", "xdmf": "region", "bdf": "nastran:ref"}
+        labels = dict(data, vtu="label", vtk="label", xdmf="label", ply="label")
+        names = ("rubber", "steel", "bottom", "lid", "side")
+        for extension in FORMATS:
+            out = path("lost." + extension)
+            done = subprocess.run([DELMESHER, "improve", path("parts.msh"), "-o", out], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            warned = [what for what in ("regions", "labels", "names") if "it has several %s, of which %s can tell" % (what, out) in done.stderr]
+            with self.subTest(extension):
+                with open(out.replace(".node", ".face"), "rb") as file:
+                    text = file.read().decode("latin-1")
+                if extension == "node":
+                    with open(path("lost.ele")) as file:
+                        regions = len({line.split()[-1] for line in file.read().split("\n")[1:] if len(line.split()) > 4})
+                    found = {"regions": regions == 2, "labels": len({line.split()[4] for line in text.split("\n")[1:] if line}) == 3}
+                elif extension in ("tet", "off"):
+                    found = {}
+                elif extension == "inp":
+                    found = {"regions": text.count("*ELEMENT,") == 2, "labels": text.count("*SURFACE,") == 3}
+                elif extension == "stl":
+                    found = {"labels": text.count("endsolid") == 3}
+                else:
+                    file = meshio.read(out)
+                    found = {"labels": sets(file, "triangle", labels[extension]) == 3}
+                    found["regions"] = extension in data and sets(file, "tetra", data[extension]) == 2
+                boundary = extension in ("stl", "ply", "off")
+                there = [name for name in names if name in text]
+                found["names"] = there == list(names[2:] if boundary else names)
+                for what in ("regions", "labels", "names"):
+                    if what == "regions" and boundary or what == "names" and "labels" in warned:
+                        continue  # a format of the boundary alone; labels that are lost have no names
+                    self.assertNotEqual(found.get(what, False), what in warned, what)
 
     def test_vtu_and_xdmf(self):
         for extension in ("vtu", "xdmf"):
@@ -298,14 +426,14 @@ class Read(unittest.TestCase):
             for kind in ("triangle", "line"):
                 self.assertTrue(numpy.array_equal(cells(mesh, kind), cells(text, kind)), (name, kind))
         self.assertEqual({name: tuple(tag) for name, tag in meshio.read(path("flat.msh")).field_data.items()},
-                         {"marker 0": (1, 1), "inside": (1, 2)})
+                         {"marker 0": (2, 1), "inside": (1, 2)})
         with open(path("flat.msh"), "rb") as file:
             self.assertIn(b"\n4.1 1 8\n", file.read(200))
 
     def test_gmsh_knows_what_bounds_the_volume(self):
         geo = path("boundary.geo")
         with open(geo, "w") as file:
-            file.write('Merge "box.msh";\ns() = Boundary { Volume{1}; };\nPrintf("bounded by %g", #s());\n'
+            file.write('Merge "box.msh";\ns() = Boundary { Volume{4}; };\nPrintf("bounded by %g", #s());\n'
                        'p() = Physical Surface{:};\nPrintf("groups %g", #p());\n')
         done = subprocess.run(["gmsh", "-0", geo, "-o", path("unused.msh")], capture_output=True, text=True)
         self.assertIn("bounded by 6", done.stdout)

@@ -420,17 +420,28 @@ py::dict read_mesh_file(const std::string& path) {
   return d;
 }
 
-void write_mesh_file(const std::string& path, const py::dict& given, const io::LabelNames& names,
-                     const io::LabelNames& region_names, int order, bool ascii) {
-  const io::WriteStatus status = io::write_mesh(
-      path, mesh_of(given), names, {.order = order, .ascii = ascii, .region_names = region_names});
+// These answer with warnings.
+std::vector<std::string> write_mesh_file(const std::string& path, const py::dict& given,
+                                         const io::LabelNames& names,
+                                         const io::LabelNames& region_names, int order, bool ascii,
+                                         bool msh_2_2) {
+  const io::WriteStatus status =
+      io::write_mesh(path, mesh_of(given), names,
+                     {.order = order,
+                      .ascii = ascii,
+                      .msh = msh_2_2 ? io::MshVersion::v2_2 : io::MshVersion::v4_1,
+                      .region_names = region_names});
   ok_or_throw(status);
+  return status.warnings;
 }
 
-void write_surface_file(const std::string& path, const Array<double>& points,
-                        const Array<std::uint32_t>& triangles, const Labels& labels,
-                        const io::LabelNames& names) {
-  ok_or_throw(io::write_surface(path, surface_of(points, triangles, labels), names));
+std::vector<std::string> write_surface_file(const std::string& path, const Array<double>& points,
+                                            const Array<std::uint32_t>& triangles,
+                                            const Labels& labels, const io::LabelNames& names) {
+  const io::WriteStatus status =
+      io::write_surface(path, surface_of(points, triangles, labels), names);
+  ok_or_throw(status);
+  return status.warnings;
 }
 
 }  // namespace

@@ -60,6 +60,14 @@ void add_mesh_outputs(CLI::App& app, Command& command, const std::string& extens
                   "output");
   add_file(app, command, "--stats", &Command::stats_file, "write statistics as JSON");
   app.add_flag("--ascii", command.write.ascii, ".msh and .vtu as text, not as bytes");
+  app.add_option_function<std::string>(
+         "--msh",
+         [&command](const std::string& text) {
+           command.write.msh = text == "2.2" ? io::MshVersion::v2_2 : io::MshVersion::v4_1;
+         },
+         "version of .msh: 4.1, or 2.2, which is text (4.1)")
+      ->check(CLI::IsMember({"2.2", "4.1"}))
+      ->type_name("2.2|4.1");
 }
 
 void add_exact(CLI::App& app, Command& command) {

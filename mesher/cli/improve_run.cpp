@@ -1,14 +1,10 @@
 #include "mesher/cli/improve_run.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <functional>
 
 #include "mesher/cli/quality.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/read_mesh.h"
-#include "mesher/io/text.h"
 #include "mesher/io/write_mesh.h"
 
 namespace delmesher::cli {
@@ -28,7 +24,6 @@ class ImproveRunner : RunSteps {
  private:
   int read();
   int improve();
-  void warn_of_lost_regions() const;
 
   TetMesh mesh_;
   io::LabelNames names_;
@@ -43,25 +38,10 @@ int ImproveRunner::read() {
     warn("its elements are of second order, those written are not (--order 2)");
   }
   mesh_ = std::move(input.mesh);
-  warn_of_lost_regions();
   names_ = std::move(input.names);
   write_.region_names = std::move(input.region_names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");
   return read_beside(names_, mesh_.boundary_labels);
-}
-
-// A .tet file has sides, but no regions.
-void ImproveRunner::warn_of_lost_regions() const {
-  const auto& regions = mesh_.regions;
-  if (std::adjacent_find(regions.begin(), regions.end(), std::not_equal_to()) == regions.end()) {
-    return;
-  }
-  for (const std::string& output : command_.outputs) {
-    const std::string extension = std::filesystem::path(output).extension().string();
-    if (io::equal_ignoring_case(extension, ".tet")) {
-      warn("it has several regions, of which " + output + " can tell nothing");
-    }
-  }
 }
 
 // The line of quality, with the quality before.
@@ -89,7 +69,7 @@ int ImproveRunner::improve() {
                  [&](io::OutputSet& outputs) {
                    io::WriteStatus status;
                    for (const std::string& output : command_.outputs) {
-                     status = io::write_mesh(outputs, output, result.mesh, names_, write_);
+                     status = warned(io::write_mesh(outputs, output, result.mesh, names_, write_));
                      if (!status.ok()) break;
                    }
                    return status;

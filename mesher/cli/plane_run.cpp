@@ -39,7 +39,7 @@ int PlaneRunner::read() {
 io::WriteStatus PlaneRunner::write_all(io::OutputSet& outputs, const PlaneResult& result) const {
   io::WriteStatus status;
   for (const std::string& output : command_.outputs) {
-    status = io::write_plane(outputs, output, result.mesh, &graph_, command_.write);
+    status = warned(io::write_plane(outputs, output, result.mesh, &graph_, command_.write));
     if (!status.ok()) return status;
   }
   if (!command_.chamfered_file.empty()) {

@@ -47,7 +47,7 @@ int RepairRunner::write() {
   outputs.make_folders();
   io::WriteStatus status;
   for (const std::string& output : command_.outputs) {
-    status = io::write_surface(outputs, output, surface_, names_);
+    status = warned(io::write_surface(outputs, output, surface_, names_));
     if (!status.ok()) return fail(kUnreadable, status.error);
   }
   const Deferring deferring;

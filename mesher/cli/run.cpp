@@ -90,7 +90,7 @@ void Runner::count_defects(Status& status) const {
 io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) const {
   io::WriteStatus status;
   for (const std::string& output : command_.outputs) {
-    status = io::write_mesh(outputs, output, result.mesh, names_, command_.write);
+    status = warned(io::write_mesh(outputs, output, result.mesh, names_, command_.write));
     if (!status.ok()) return status;
   }
   if (!command_.chamfered_file.empty()) {

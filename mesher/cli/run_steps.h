@@ -70,6 +70,11 @@ class RunSteps {
     std::function<int()> conclude;
   };
   int finish(const Outcome& outcome);
+  // Warns of what the format of a file written cannot hold.
+  io::WriteStatus warned(io::WriteStatus status) const {
+    for (const std::string& warning : status.warnings) warn(warning);
+    return status;
+  }
   static void note_interruption(Status& status) {
     if (status.ok() && interrupted()) status = {StatusCode::interrupted, "interrupted"};
   }

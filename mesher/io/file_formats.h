@@ -2,8 +2,10 @@
 // which the first is the one that a path has.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,12 +19,47 @@ namespace delmesher::io {
 // One file per extension of a format.
 using Sinks = std::span<TextSink* const>;
 
+// What a format cannot tell, in bits.
+enum Lacks : unsigned {
+  kLacksNothing = 0,
+  kLacksNames = 1,    // of labels and regions, which it has
+  kLacksLabels = 2,   // or the markers of edges
+  kLacksRegions = 4,  // but for the two sides
+  kLacksSides = 8
+};
+
 template <class Written>
 struct FileFormat {
   // The one that a path has, then those of the files that are written beside it.
   std::array<std::string_view, 3> extensions;
   void (*write)(Sinks files, const Written& written);
+  unsigned lacks = kLacksNothing;
 };
+
+// The warnings that something is lost; `there`: bits of what there is.
+inline std::vector<std::string> losses(const std::string& path, unsigned lacks, unsigned there) {
+  struct Text {
+    unsigned bit;
+    const char* what;
+  };
+  static constexpr std::array<Text, 4> kTexts = {{{kLacksRegions, "it has several regions"},
+                                                  {kLacksSides, "it has an inside and an outside"},
+                                                  {kLacksLabels, "it has several labels"},
+                                                  {kLacksNames, "it has several names"}}};
+  std::vector<std::string> lost;
+  for (const auto& [bit, what] : kTexts) {
+    if ((lacks & there & bit) != 0) {
+      lost.push_back(std::string(what) + ", of which " + path + " can tell nothing");
+    }
+  }
+  return lost;
+}
+
+// Is there more than one value?
+template <class Values>
+bool several(const Values& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::not_equal_to()) != values.end();
+}
 
 // The format that the path's extension means, in any case; null if it means none.
 template <class Format, std::size_t N>
@@ -61,12 +98,13 @@ std::string extensions_of(const std::array<Format, N>& table) {
 }
 
 // Adds the files to a set of outputs, in the format of the path's extension.
+// `there`: bits of Lacks, what there is to be told.
 template <class Written, std::size_t N>
 WriteStatus write_by_extension(const std::array<FileFormat<Written>, N>& table, OutputSet& outputs,
-                               const std::string& path, const Written& written) {
+                               const std::string& path, const Written& written, unsigned there) {
   const FileFormat<Written>* format = format_of(table, path);
   if (format == nullptr) return {path + ": unknown mesh format (" + extensions_of(table) + ")"};
-  WriteStatus status;
+  WriteStatus status{{}, losses(path, format->lacks, there)};
   std::vector<TextSink*> sinks;
   for (const std::string& file : files_made(table, path)) {
     sinks.push_back(outputs.open(file, status));

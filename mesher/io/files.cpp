@@ -12,7 +12,8 @@ template <class Write>
 WriteStatus written(const Write& write) {
   OutputSet outputs;
   WriteStatus status = write(outputs);
-  return status.ok() ? outputs.commit() : status;
+  if (status.ok()) status.error = outputs.commit().error;
+  return status;
 }
 
 }  // namespace

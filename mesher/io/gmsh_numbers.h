@@ -1,24 +1,46 @@
-// What the writers of Gmsh's format share: numbers and sections as MSH 4.1 has them (Gmsh reference
-// manual, "MSH file format").
+// What the writers of Gmsh's format share: numbers and sections as MSH 4.1 and 2.2 have them (Gmsh
+// reference manual, "MSH file format").
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "mesher/io/binary.h"
 #include "mesher/io/output.h"
 
 namespace delmesher::io {
 
-// Numbers as text with blanks and lines, or as bytes without.
+// The tags of physical groups, by what they are to tell. Programs such as GetDP and GetFEM number
+// the groups of all dimensions together, so no tag is there twice; and tags are positive. A number
+// is its own tag if both allow it, and the others get the tags after the largest.
+inline std::vector<std::int64_t> group_tags(const std::vector<std::int64_t>& numbers) {
+  std::int64_t next = 1;
+  for (const std::int64_t n : numbers) next = std::max(next, n + 1);
+  std::set<std::int64_t> taken;
+  std::vector<std::int64_t> tags;
+  for (const std::int64_t n : numbers) {
+    tags.push_back(n > 0 && taken.insert(n).second ? n : next++);
+  }
+  return tags;
+}
+
+// Numbers as text with blanks and lines, or as bytes without; 2.2 is written as text alone.
 class GmshNumbers {
  public:
-  GmshNumbers(TextSink& out, bool ascii) : out_(out), ascii_(ascii) {}
+  GmshNumbers(TextSink& out, bool ascii, MshVersion version)
+      : out_(out), two_(version == MshVersion::v2_2), ascii_(ascii || two_) {}
 
   // The beginning of the file.
   void format() {
-    out_.text(ascii_ ? "$MeshFormat\n4.1 0 8\n" : "$MeshFormat\n4.1 1 8\n");
+    if (two_) {
+      out_.text("$MeshFormat\n2.2 0 8\n");
+    } else {
+      out_.text(ascii_ ? "$MeshFormat\n4.1 0 8\n" : "$MeshFormat\n4.1 1 8\n");
+    }
     if (!ascii_) {
       tag(1);  // shows the byte order
       out_.text("\n");
@@ -49,18 +71,58 @@ class GmshNumbers {
     line_is_empty_ = true;
   }
 
-  // How many blocks follow, of how many things, which are numbered from 1.
+  // All nodes, numbered from 1, without parameters: in one entity.
+  template <class Position>
+  void nodes(int dimension, std::int64_t entity, std::size_t count, const Position& position) {
+    in_section("Nodes", [&] {
+      announce(count == 0 ? 0 : 1, count);
+      if (!two_) number_nodes(dimension, entity, count);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (two_) size(i + 1);
+        point(position(i));
+        end_line();
+      }
+    });
+  }
+
+  // How many blocks of elements follow, of how many elements, which are numbered from 1.
   void announce(std::size_t blocks, std::size_t total) {
-    size(blocks);
+    if (!two_) size(blocks);
     size(total);
-    size(total == 0 ? 0 : 1);
-    size(total);
+    if (!two_) {
+      size(total == 0 ? 0 : 1);
+      size(total);
+    }
     end_line();
   }
-  // The beginning of a section of nodes: all of them in one entity, without parameters, and their
-  // numbers. Their points follow.
+  // Elements of an entity, and of its group; the type is Gmsh's number.
+  void begin_block(int dimension, std::int64_t entity, std::int64_t group, int type,
+                   std::size_t count) {
+    type_ = type;
+    entity_ = entity;
+    group_ = group;
+    if (two_) return;
+    tag(dimension);
+    tag(entity);
+    tag(type);
+    size(count);
+    end_line();
+  }
+  // The next element of the block: places of its nodes, from 0, in Gmsh's order.
+  template <class Nodes>
+  void element(const Nodes& nodes) {
+    size(++elements_);
+    if (two_) {
+      for (const std::int64_t value : {std::int64_t{type_}, std::int64_t{2}, group_, entity_}) {
+        tag(value);
+      }
+    }
+    for (const std::uint32_t v : nodes) size(v + 1ULL);
+    end_line();
+  }
+
+ private:
   void number_nodes(int dimension, std::int64_t entity, std::size_t count) {
-    announce(count == 0 ? 0 : 1, count);
     if (count != 0) {
       tag(dimension);
       tag(entity);
@@ -73,16 +135,6 @@ class GmshNumbers {
       end_line();
     }
   }
-  // Elements of an entity; the type is Gmsh's number.
-  void begin_block(int dimension, std::int64_t entity, int type, std::size_t count) {
-    tag(dimension);
-    tag(entity);
-    tag(type);
-    size(count);
-    end_line();
-  }
-
- private:
   template <class Write>
   void text(const Write& write) {
     if (!line_is_empty_) out_.text(" ");
@@ -96,7 +148,10 @@ class GmshNumbers {
   }
 
   TextSink& out_;
-  bool ascii_, line_is_empty_ = true;
+  bool two_, ascii_, line_is_empty_ = true;
+  int type_ = 0;  // of the block
+  std::int64_t entity_ = 0, group_ = 0;
+  std::size_t elements_ = 0;
 };
 
 }  // namespace delmesher::io

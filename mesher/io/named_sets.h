@@ -31,6 +31,7 @@ struct NamedMesh {
   const EdgeNodes* edge_nodes = nullptr;  // of elements of second order
   bool ascii = true;                      // else bytes, in formats that have both
   LabelNames region_names = {};
+  MshVersion msh = MshVersion::v4_1;
 
   bool second_order() const { return edge_nodes != nullptr; }
   // All nodes: the vertices, then those of the edges.

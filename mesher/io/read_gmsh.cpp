@@ -16,7 +16,7 @@ namespace {
 constexpr int kSurface = 2, kVolume = 3;  // dimensions of entities
 
 // Number of nodes of an element of first or second order; 0 for elements of other kinds.
-std::size_t nodes_of(int type) {
+std::size_t nodes_of_type(int type) {
   switch (type) {
     case 1:  // line
       return 2;
@@ -133,7 +133,9 @@ class GmshReader {
   }
 
   // "label L" and "region R" are delmesher's own names of groups whose number need not be theirs.
+  // Nor need the numbers of the two sides be, where volumes are nothing else.
   void read_names() {
+    std::map<std::int64_t, std::string> volumes;
     for (auto n = in_.count("number of names", kMostCells, 6); n > 0; --n) {
       const int dimension = in_.integer<int>("dimension");
       const std::int64_t tag = tag_from(in_.integer<std::int64_t>("physical tag"));
@@ -154,7 +156,15 @@ class GmshReader {
       }
       groups_[{dimension, tag}] = group;
       if (dimension == kSurface) builder_.name_label(group.number, name);
-      if (dimension == kVolume) builder_.name_region(group.number, name);
+      if (dimension == kVolume) volumes[tag] = name;
+    }
+    const bool sides = std::ranges::all_of(volumes, [](const auto& volume) {
+      return volume.second == "inside" || volume.second == "outside";
+    });
+    for (const auto& [tag, name] : volumes) {
+      Group& group = groups_[{kVolume, tag}];
+      if (sides) group.number = group.inside ? kRegionInside : kRegionOutside;
+      builder_.name_region(group.number, name);
     }
   }
 
@@ -246,7 +256,7 @@ class GmshReader {
   }
 
   void read_element(int type, std::int64_t entity, const Group& group) {
-    const std::size_t size = nodes_of(type);
+    const std::size_t size = nodes_of_type(type);
     if (!is_tetrahedron(type) && !is_triangle(type)) return skip(size, sizeof(std::uint64_t));
     std::array<std::uint32_t, 10> node{};
     const std::span nodes = std::span(node).first(size);
@@ -265,7 +275,7 @@ class GmshReader {
 
   int need_type() {
     const std::int64_t type = tag("element type");
-    if (type != static_cast<int>(type) || nodes_of(static_cast<int>(type)) == 0) {
+    if (type != static_cast<int>(type) || nodes_of_type(static_cast<int>(type)) == 0) {
       in_.fail("elements of type " + std::to_string(type) +
                ": a mesh of tetrahedra of first or second order is expected");
     }

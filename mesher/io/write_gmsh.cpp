@@ -1,5 +1,5 @@
-// Gmsh MSH 4.1, binary or ASCII. One surface entity per
-// facet, one volume entity per region; physical groups carry the labels.
+// Gmsh MSH 4.1, binary or ASCII, and 2.2. One surface entity per facet, one volume entity per
+// region; physical groups carry the labels.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -29,6 +29,29 @@ struct Box {
   }
 };
 
+// The tags of labels and of regions.
+struct Groups {
+  std::map<std::int32_t, std::int64_t> label, region;
+
+  Groups(const Members& triangles, const Members& tetrahedra) {
+    std::vector<std::int64_t> numbers;
+    for (auto l = triangles.rbegin(); l != triangles.rend(); ++l) numbers.push_back(l->first);
+    for (const auto& [number, members] : tetrahedra) numbers.push_back(number);
+    const std::vector<std::int64_t> tags = group_tags(numbers);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      (i < triangles.size() ? label : region)[static_cast<std::int32_t>(numbers[i])] = tags[i];
+    }
+  }
+
+  std::int64_t largest() const {
+    std::int64_t tag = 0;
+    for (const auto& tags : {label, region}) {
+      for (const auto& [number, t] : tags) tag = std::max(tag, t);
+    }
+    return tag;
+  }
+};
+
 class GmshWriter {
  public:
   GmshWriter(TextSink& out, const NamedMesh& named)
@@ -36,34 +59,34 @@ class GmshWriter {
         named_(named),
         mesh_(named.mesh),
         names_(named.names),
-        numbers_(out, named.ascii || !fits_bytes(named)) {
-    physical_ = tags_of({mesh_.boundary_labels.begin(), mesh_.boundary_labels.end()});
-    number_regions();
+        tetrahedra_(tetrahedra_of_regions(mesh_)),
+        groups_(triangles_of_labels(mesh_), tetrahedra_),
+        numbers_(out, named.ascii || !fits_bytes(), named.msh) {
     order_triangles();
   }
 
   void write() {
     numbers_.format();
     write_physical_names();
-    numbers_.in_section("Entities", [&] { write_entities(); });
-    numbers_.in_section("Nodes", [&] { write_nodes(); });
+    if (named_.msh == MshVersion::v4_1) {
+      numbers_.in_section("Entities", [&] { write_entities(); });
+    }
+    numbers_.nodes(3, groups_.region.empty() ? 1 : groups_.region.begin()->second, named_.nodes(),
+                   [&](std::size_t i) { return named_.node(i); });
     numbers_.in_section("Elements", [&] { write_elements(); });
   }
 
  private:
-  static std::map<std::int32_t, std::int64_t> tags_of(const std::set<std::int32_t>& numbers);
-  static bool fits_bytes(const NamedMesh& named);
-  void number_regions();
+  bool fits_bytes() const;
   void order_triangles();
   static bool tells_another(const std::string& name, std::int32_t number,
                             const std::string& unnamed);
-  static std::string group_name(const LabelNames& names, std::int32_t number,
+  static std::string group_name(bool given, std::int32_t number, std::int64_t tag,
                                 const std::string& name, const char* unnamed);
   void write_physical_names();
   void write_entities();
   void write_volume(std::int32_t number, const std::set<std::int64_t>& surfaces);
   std::map<std::int32_t, std::set<std::int64_t>> surfaces_of_regions() const;
-  void write_nodes();
   void write_elements();
   void box(const Box& b) {
     numbers_.point(b.low);
@@ -82,52 +105,30 @@ class GmshWriter {
   }
 
   // An element, with its nodes in Gmsh's order.
-  void element(std::size_t tag, CellNodes nodes) {
+  void element(CellNodes nodes) {
     if (nodes.count == 10) std::swap(nodes.node[8], nodes.node[9]);  // the edges 23 13
-    numbers_.size(tag);
-    for (const std::uint32_t v : nodes) numbers_.size(v + 1ULL);
-    numbers_.end_line();
+    numbers_.element(nodes);
   }
 
   TextSink& out_;
   const NamedMesh& named_;
   const TetMesh& mesh_;
   const LabelNames& names_;
+  Members tetrahedra_;  // of a region
+  Groups groups_;       // the tag of a region is that of its entity, too
   GmshNumbers numbers_;
-  std::map<std::int32_t, std::int64_t> physical_;  // of a label
-  std::map<std::int32_t, std::int64_t> volume_;    // of a region, entity and group
-  Members tetrahedra_;                             // of a region
-  std::vector<std::size_t> order_;                 // boundary triangles by facet
+  std::vector<std::size_t> order_;  // boundary triangles by facet
   std::size_t facets_ = 0;
 };
 
-// A tag must be positive: positive labels and regions are their own tag, the others (0, the
-// default, among them) get the tags after the largest. The names tell the numbers in every case.
-std::map<std::int32_t, std::int64_t> GmshWriter::tags_of(const std::set<std::int32_t>& numbers) {
-  std::map<std::int32_t, std::int64_t> tags;
-  std::int64_t next = numbers.empty() ? 1 : std::max(*numbers.rbegin(), 0) + 1LL;
-  for (auto n = numbers.rbegin(); n != numbers.rend(); ++n) tags[*n] = *n > 0 ? *n : next++;
-  return tags;
-}
-
 // Tags of entities and groups have four bytes; whatever has larger ones is written as text.
-bool GmshWriter::fits_bytes(const NamedMesh& named) {
-  const auto below = [](const auto& numbers, std::int64_t bound) {
-    return std::all_of(numbers.begin(), numbers.end(), [&](auto n) { return n < bound; });
+bool GmshWriter::fits_bytes() const {
+  const auto fits = [](std::int64_t tag) {
+    return tag <= std::numeric_limits<std::int32_t>::max();
   };
-  // The tags of labels and regions that are not positive follow the largest.
-  constexpr std::int64_t kInts = std::numeric_limits<std::int32_t>::max();
-  const auto most = static_cast<std::int64_t>(named.mesh.boundary.size());
-  const auto all = static_cast<std::int64_t>(named.mesh.tetrahedra.size());
-  return below(named.mesh.boundary_facets, kInts) &&
-         below(named.mesh.boundary_labels, kInts - most) && below(named.mesh.regions, kInts - all);
-}
-
-void GmshWriter::number_regions() {
-  tetrahedra_ = tetrahedra_of_regions(mesh_);
-  std::set<std::int32_t> regions;
-  for (const auto& [number, tetrahedra] : tetrahedra_) regions.insert(number);
-  volume_ = tags_of(regions);
+  return fits(groups_.largest()) &&
+         std::all_of(mesh_.boundary_facets.begin(), mesh_.boundary_facets.end(),
+                     [&](std::uint32_t f) { return fits(std::int64_t{f} + 1); });
 }
 
 void GmshWriter::order_triangles() {
@@ -148,12 +149,11 @@ bool GmshWriter::tells_another(const std::string& name, std::int32_t number,
   return parse_integer(rest.substr(0, rest.find(' ')), told);
 }
 
-// A number that is not positive cannot be the tag, so its name contains it; that of a name which
-// would tell one as well, too.
-std::string GmshWriter::group_name(const LabelNames& names, std::int32_t number,
+// A number that could not be the tag is told by the name, and so is that of a name which would tell
+// one as well. "inside" and "outside" tell theirs.
+std::string GmshWriter::group_name(bool given, std::int32_t number, std::int64_t tag,
                                    const std::string& name, const char* unnamed) {
-  const bool told =
-      !names.contains(number) || (number > 0 && !tells_another(name, number, unnamed));
+  const bool told = !given || (number == tag && !tells_another(name, number, unnamed));
   std::string group = told ? name : unnamed + std::to_string(number) + " " + name;
   std::replace(group.begin(), group.end(), '"', '\'');
   return group;
@@ -161,19 +161,20 @@ std::string GmshWriter::group_name(const LabelNames& names, std::int32_t number,
 
 void GmshWriter::write_physical_names() {
   out_.text("$PhysicalNames\n");
-  out_.integer(physical_.size() + volume_.size());
+  out_.integer(groups_.label.size() + groups_.region.size());
   out_.text("\n");
-  for (const auto& [label, tag] : physical_) {
-    out_.text("2 ");
+  const auto line = [&](const char* dimension, std::int64_t tag, const std::string& name) {
+    out_.text(dimension);
     out_.integers(tag);
-    out_.text("\"" + group_name(names_, label, label_name(names_, label), "label ") + "\"\n");
+    out_.text("\"" + name + "\"\n");
+  };
+  for (const auto& [label, tag] : groups_.label) {
+    line("2 ", tag,
+         group_name(names_.contains(label), label, tag, label_name(names_, label), "label "));
   }
-  for (const auto& [number, tag] : volume_) {
-    out_.text("3 ");
-    out_.integers(tag);
-    out_.text("\"" +
-              group_name(named_.region_names, number, region_name(named_, number), "region ") +
-              "\"\n");
+  for (const auto& [number, tag] : groups_.region) {
+    const bool given = !mesh_.regions.empty() && named_.region_names.contains(number);
+    line("3 ", tag, group_name(given, number, tag, region_name(named_, number), "region "));
   }
   out_.text("$EndPhysicalNames\n");
 }
@@ -200,17 +201,17 @@ void GmshWriter::write_volume(std::int32_t number, const std::set<std::int64_t>&
   for (const std::size_t t : tetrahedra_.at(number)) {
     for (const std::uint32_t v : mesh_.tetrahedra[t]) volume.add(mesh_.vertices[v]);
   }
-  numbers_.tag(volume_.at(number));
+  numbers_.tag(groups_.region.at(number));
   box(volume);
   numbers_.size(1);
-  numbers_.tag(volume_.at(number));
+  numbers_.tag(groups_.region.at(number));
   numbers_.size(surfaces.size());
   for (const std::int64_t tag : surfaces) numbers_.tag(tag);
   numbers_.end_line();
 }
 
 void GmshWriter::write_entities() {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{0}, facets_, volume_.size()}) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{0}, facets_, groups_.region.size()}) {
     numbers_.size(count);
   }
   numbers_.end_line();
@@ -222,35 +223,26 @@ void GmshWriter::write_entities() {
     numbers_.tag(static_cast<std::int64_t>(facet_tag(order_[begin])));
     box(facet);
     numbers_.size(1);
-    numbers_.tag(physical_.at(mesh_.boundary_labels[order_[begin]]));
+    numbers_.tag(groups_.label.at(mesh_.boundary_labels[order_[begin]]));
     numbers_.size(0);
     numbers_.end_line();
   });
   auto surfaces = surfaces_of_regions();
-  for (const auto& [number, tag] : volume_) write_volume(number, surfaces[number]);
-}
-
-void GmshWriter::write_nodes() {
-  const std::size_t n = named_.nodes();
-  numbers_.number_nodes(3, volume_.empty() ? 1 : volume_.begin()->second, n);  // the first volume
-  for (std::size_t i = 0; i < n; ++i) {
-    numbers_.point(named_.node(i));
-    numbers_.end_line();
-  }
+  for (const auto& [number, tag] : groups_.region) write_volume(number, surfaces[number]);
 }
 
 void GmshWriter::write_elements() {
-  const std::size_t total = mesh_.boundary.size() + mesh_.tetrahedra.size();
-  numbers_.announce(facets_ + tetrahedra_.size(), total);
-  std::size_t tag = 1;
+  numbers_.announce(facets_ + tetrahedra_.size(), mesh_.boundary.size() + mesh_.tetrahedra.size());
   each_facet([&](std::size_t begin, std::size_t end) {
     numbers_.begin_block(2, static_cast<std::int64_t>(facet_tag(order_[begin])),
+                         groups_.label.at(mesh_.boundary_labels[order_[begin]]),
                          named_.second_order() ? 9 : 2, end - begin);
-    for (std::size_t i = begin; i < end; ++i) element(tag++, named_.triangle(order_[i]));
+    for (std::size_t i = begin; i < end; ++i) element(named_.triangle(order_[i]));
   });
   for (const auto& [number, tetrahedra] : tetrahedra_) {
-    numbers_.begin_block(3, volume_.at(number), named_.second_order() ? 11 : 4, tetrahedra.size());
-    for (const std::size_t i : tetrahedra) element(tag++, named_.tetrahedron(i));
+    const std::int64_t tag = groups_.region.at(number);
+    numbers_.begin_block(3, tag, tag, named_.second_order() ? 11 : 4, tetrahedra.size());
+    for (const std::size_t i : tetrahedra) element(named_.tetrahedron(i));
   }
 }
 

@@ -26,25 +26,36 @@ const char* inconsistency(const TetMesh& mesh) {
   return nullptr;
 }
 
+// Bits of Lacks. One label or region tells nothing, whatever it is called.
+unsigned contents(const NamedMesh& named) {
+  unsigned there = several(named.mesh.regions) ? kLacksRegions : kLacksNothing;
+  if (several(named.mesh.boundary_labels)) there |= kLacksLabels;
+  if (given_names(named).size() > 1) there |= kLacksNames;
+  return there;
+}
+
 constexpr std::size_t kMostNodes = 0xfffffff0U;
 
 constexpr std::array<FileFormat<NamedMesh>, 3> kBoundaryFormats = {
     {{{".stl"}, [](Sinks f, const NamedMesh& m) { write_boundary_stl(*f[0], m); }},
      {{".ply"}, [](Sinks f, const NamedMesh& m) { write_boundary_ply(*f[0], m); }},
-     {{".off"}, [](Sinks f, const NamedMesh& m) { write_boundary_off(*f[0], m); }}}};
+     {{".off"}, [](Sinks f, const NamedMesh& m) { write_boundary_off(*f[0], m); }, kLacksLabels}}};
 
 // The extension of the path first, then the extensions of the files beside it.
 constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
-    {{{".mesh"}, [](Sinks f, const NamedMesh& m) { write_medit(*f[0], m); }},
+    {{{".mesh"}, [](Sinks f, const NamedMesh& m) { write_medit(*f[0], m); }, kLacksNames},
      {{".msh"}, [](Sinks f, const NamedMesh& m) { write_gmsh(*f[0], m); }},
      {{".vtu"}, [](Sinks f, const NamedMesh& m) { write_vtu(*f[0], m); }},
-     {{".vtk"}, [](Sinks f, const NamedMesh& m) { write_vtk(*f[0], m); }},
+     {{".vtk"}, [](Sinks f, const NamedMesh& m) { write_vtk(*f[0], m); }, kLacksNames},
      {{".xdmf"}, [](Sinks f, const NamedMesh& m) { write_xdmf(*f[0], m); }},
      {{".inp"}, [](Sinks f, const NamedMesh& m) { write_abaqus(*f[0], m); }},
      {{".bdf"}, [](Sinks f, const NamedMesh& m) { write_nastran(*f[0], m); }},
      {{".node", ".ele", ".face"},
-      [](Sinks f, const NamedMesh& m) { write_tetgen(*f[0], *f[1], *f[2], m.mesh); }},
-     {{".tet"}, [](Sinks f, const NamedMesh& m) { write_tet(*f[0], m.mesh); }},
+      [](Sinks f, const NamedMesh& m) { write_tetgen(*f[0], *f[1], *f[2], m.mesh); },
+      kLacksNames},
+     {{".tet"},
+      [](Sinks f, const NamedMesh& m) { write_tet(*f[0], m.mesh); },
+      kLacksRegions | kLacksLabels},
      kBoundaryFormats[0],
      kBoundaryFormats[1],
      kBoundaryFormats[2]}};
@@ -58,7 +69,7 @@ WriteStatus write_second_order(OutputSet& outputs, const std::string& path, Name
   const EdgeNodes edge_nodes(named.mesh);
   named.edge_nodes = &edge_nodes;
   if (named.nodes() > kMostNodes) return {path + ": too many nodes for --order 2"};
-  return write_by_extension(kFormats, outputs, path, named);
+  return write_by_extension(kFormats, outputs, path, named, contents(named));
 }
 
 }  // namespace
@@ -96,10 +107,10 @@ WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMes
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
   if (options.order != 1 && options.order != 2) return {path + ": the order is neither 1 nor 2"};
   const LabelNames distinct = distinct_names(names);
-  const NamedMesh named{mesh, distinct, nullptr, options.ascii,
-                        distinct_names(options.region_names)};
+  const NamedMesh named{
+      mesh, distinct, nullptr, options.ascii, distinct_names(options.region_names), options.msh};
   return options.order == 2 ? write_second_order(outputs, path, named)
-                            : write_by_extension(kFormats, outputs, path, named);
+                            : write_by_extension(kFormats, outputs, path, named, contents(named));
 }
 
 WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Surface& surface,
@@ -112,7 +123,8 @@ WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Sur
   boundary.boundary_facets.resize(surface.triangles.size());
   if (const char* reason = inconsistency(boundary)) return {path + ": " + reason};
   const LabelNames distinct = distinct_names(names);
-  return write_by_extension(kBoundaryFormats, outputs, path, NamedMesh{boundary, distinct});
+  const NamedMesh named{boundary, distinct};
+  return write_by_extension(kBoundaryFormats, outputs, path, named, contents(named));
 }
 
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface) {

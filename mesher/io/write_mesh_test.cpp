@@ -113,6 +113,51 @@ TEST_F(WriteMesh, Gmsh) {
       << text;
 }
 
+// Programs that number the groups of all dimensions together must not mix them up: no tag is there
+// twice, and what cannot be its own tag is told by the name. All of it comes back.
+TEST_F(WriteMesh, TagsOfGmshAreUniqueOverDimensions) {
+  TetMesh mesh = sample();
+  mesh.boundary_labels = {1, 2, -1};
+  for (const MshVersion version : {MshVersion::v4_1, MshVersion::v2_2}) {
+    ASSERT_TRUE(write_mesh(path("a.msh"), mesh, {}, {.ascii = true, .msh = version}).ok());
+    EXPECT_NE(content(path("a.msh"))
+                  .find("\n5\n2 3 \"label -1\"\n2 1 \"label 1\"\n2 2 \"label 2\"\n"
+                        "3 4 \"inside\"\n3 5 \"outside\"\n$End"),
+              std::string::npos)
+        << content(path("a.msh"));
+    const MeshReadResult back = read_mesh(path("a.msh"));
+    ASSERT_TRUE(back.ok()) << back.error;
+    EXPECT_TRUE(back.mesh.regions.empty());
+    std::vector<std::uint8_t> inside = back.mesh.inside;
+    std::sort(inside.begin(), inside.end());
+    EXPECT_EQ(inside, (std::vector<std::uint8_t>{0, 1}));
+    std::vector<std::int32_t> labels = back.mesh.boundary_labels;
+    std::sort(labels.begin(), labels.end());
+    EXPECT_EQ(labels, (std::vector<std::int32_t>{-1, 1, 2}));
+  }
+  mesh.regions = {2, 7};
+  const LabelNames names = {{2, "steel"}, {7, "rubber"}};
+  ASSERT_TRUE(write_mesh(path("b.msh"), mesh, {}, {.ascii = true, .region_names = names}).ok());
+  EXPECT_NE(content(path("b.msh")).find("\n3 9 \"region 2 steel\"\n3 7 \"rubber\"\n$End"),
+            std::string::npos)
+      << content(path("b.msh"));
+  const MeshReadResult regions = read_mesh(path("b.msh"));
+  EXPECT_EQ(regions.region_names, names);
+  EXPECT_EQ(std::set(regions.mesh.regions.begin(), regions.mesh.regions.end()),
+            (std::set<std::int32_t>{2, 7}));
+}
+
+TEST_F(WriteMesh, AnOlderVersionOfGmsh) {
+  ASSERT_TRUE(write_mesh(path("a.msh"), sample(), {}, {.msh = MshVersion::v2_2}).ok());
+  const std::string text = content(path("a.msh"));
+  EXPECT_TRUE(text.starts_with("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n"));
+  EXPECT_NE(text.find("$Nodes\n5\n1 0.1 1e-310 -0\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("$Elements\n5\n1 2 2 8 5 1 2 4\n2 2 2 9 6 2 3 4\n3 2 2 7 10 1 3 2\n"
+                      "4 4 2 1 1 1 2 3 4\n5 4 2 2 2 1 2 3 5\n$EndElements\n"),
+            std::string::npos)
+      << text;
+}
+
 // Volumes know their boundaries: facet 5 is behind the inner tetrahedron alone, facet 10 between
 // both.
 TEST_F(WriteMesh, GmshVolumesKnowTheirSurfaces) {

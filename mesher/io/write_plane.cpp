@@ -101,16 +101,22 @@ void write_off(TextSink& out, const PlaneMesh& mesh) {
 struct PlaneOutput {
   const PlaneMesh& mesh;
   const PlanarGraph* graph;  // null: no holes and regions
-  bool ascii;
+  const WriteOptions& options;
 };
 
 // The extension of the path first, then the extensions of the files beside it.
 constexpr std::array<FileFormat<PlaneOutput>, 5> kFormats = {
     {{{".node", ".ele", ".poly"},
       [](Sinks f, const PlaneOutput& o) { write_triangle(*f[0], *f[1], *f[2], o.mesh, o.graph); }},
-     {{".vtu"}, [](Sinks f, const PlaneOutput& o) { write_plane_vtu(*f[0], o.mesh, o.ascii); }},
-     {{".off"}, [](Sinks f, const PlaneOutput& o) { write_off(*f[0], o.mesh); }},
-     {{".msh"}, [](Sinks f, const PlaneOutput& o) { write_plane_gmsh(*f[0], o.mesh, o.ascii); }},
+     {{".vtu"},
+      [](Sinks f, const PlaneOutput& o) { write_plane_vtu(*f[0], o.mesh, o.options.ascii); }},
+     {{".off"},
+      [](Sinks f, const PlaneOutput& o) { write_off(*f[0], o.mesh); },
+      kLacksLabels | kLacksRegions | kLacksSides},
+     {{".msh"},
+      [](Sinks f, const PlaneOutput& o) {
+        write_plane_gmsh(*f[0], o.mesh, o.options.ascii, o.options.msh);
+      }},
      {{".svg"}, [](Sinks f, const PlaneOutput& o) { write_svg(*f[0], o.mesh); }}}};
 
 }  // namespace
@@ -127,7 +133,10 @@ WriteStatus write_plane(OutputSet& outputs, const std::string& path, const Plane
                         const PlanarGraph* graph, const WriteOptions& options) {
   const char* reason = plane_files_of(path).empty() ? nullptr : inconsistency(mesh);
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
-  return write_by_extension(kFormats, outputs, path, PlaneOutput{mesh, graph, options.ascii});
+  unsigned there = several(mesh.attributes) ? kLacksRegions : kLacksNothing;
+  if (several(mesh.edge_markers)) there |= kLacksLabels;
+  if (several(mesh.inside)) there |= kLacksSides;
+  return write_by_extension(kFormats, outputs, path, PlaneOutput{mesh, graph, options}, there);
 }
 
 WriteStatus write_poly(OutputSet& outputs, const std::string& path, const PlanarGraph& graph) {

@@ -28,7 +28,7 @@ inline void line(TextSink& out) {
 }
 
 // As text, or as bytes.
-void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh, bool ascii);
+void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh, bool ascii, MshVersion version);
 void write_plane_vtu(TextSink& out, const PlaneMesh& mesh, bool ascii);
 void write_svg(TextSink& out, const PlaneMesh& mesh);
 

@@ -252,6 +252,7 @@ class GmshReader {
       const auto found = group_.find({dimension, element.entity});
       // Some programs list no entities, or not all of them.
       element.group = found == group_.end() ? element.entity : found->second;
+      element.in_group = found != group_.end() && !ungrouped_.contains({dimension, element.entity});
       text_.groups_differ = text_.groups_differ || found == group_.end() ||
                             ungrouped_.contains({dimension, element.entity});
       for (std::uint64_t left = count(); left > 0; --left) {
@@ -280,6 +281,7 @@ class GmshReader {
       }
       if (element.group == 0) {  // not a group
         element.group = element.entity;
+        element.in_group = false;
         text_.groups_differ = true;
       }
       take(element);
@@ -315,6 +317,11 @@ class GmshReader {
   }
 
   void take(GmshElement& element) {
+    const int dimension = kind(element.type).dimension;
+    if (element.in_group) {
+      const auto [known, is_new] = dimension_of_.try_emplace(element.group, dimension);
+      text_.tags_shared = text_.tags_shared || known->second != dimension;
+    }
     for (int i = 0; i < kind(element.type).nodes; ++i) {
       const std::int64_t tag = large();
       const auto found = number_.find(tag);
@@ -348,6 +355,7 @@ class GmshReader {
   // The smallest and the largest tag read, of nodes or of elements.
   std::int64_t least_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t largest_ = std::numeric_limits<std::int64_t>::min();
+  std::map<std::int64_t, int> dimension_of_;          // of a group
   std::set<std::pair<int, std::int64_t>> ungrouped_;  // entities of no group, or of several
   std::set<std::string> seen_;
   std::map<std::pair<int, std::int64_t>, std::int64_t> group_;  // of an entity

@@ -20,6 +20,7 @@ struct GmshElement {
   int type = 0;
   std::int64_t entity = 0;  // its tag
   std::int64_t group = 0;   // its first physical tag; of an entity without one, its own
+  bool in_group = true;
   // As many as it has, by their place among the file's nodes; as Gmsh orders them: the corners,
   // then those on the edges 01 12 02, of a tetrahedron also 03 23 13.
   std::array<Index, 10> nodes{};
@@ -36,6 +37,9 @@ struct GmshText {
   // An element's entity is in no physical group, so that programs leave the element out or take the
   // entity for a group, or in several. Delmesher writes no such file.
   bool groups_differ = false;
+  // A tag is that of groups of two dimensions, which programs that number all groups together take
+  // for one. Delmesher writes no such file.
+  bool tags_shared = false;
 };
 
 // Calls `take` with the elements in their order. The sections that matter are there once, with the

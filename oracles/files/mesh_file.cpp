@@ -225,8 +225,8 @@ MeshFile read_tet(const std::string& path) {
 
 // ------------------------------------------------------------------------------------------ Gmsh
 
-// Physical tags are positive. Labels and regions that are not are written in the name: "label -3",
-// "region 0", and after that what they are called.
+// Physical tags are positive, and no label and region have the same. Labels and regions that cannot
+// be tags are written in the name: "label -3", "region 0", and after that what they are called.
 std::optional<std::int64_t> number_in(const std::string& name, std::string_view start) {
   if (!name.starts_with(start)) return {};
   const char* const last = name.data() + name.size();
@@ -266,12 +266,22 @@ MeshFile read_gmsh(const std::string& path) {
            });
   };
   mesh.groups_differ = text.groups_differ;
+  mesh.tags_shared = text.tags_shared;
   mesh.sides_contradict = called(1, "outside") || called(2, "inside");
+  // Where volumes are the two sides, and nothing else, these are 1 and 2 whatever their tags are.
+  const bool sides = std::ranges::all_of(text.names, [](const auto& name) {
+    return name.first.first != 3 || name.second == "inside" || name.second == "outside";
+  });
+  const auto region_of = [&](std::int64_t tag) {
+    const auto named = text.names.find({3, tag});
+    if (named == text.names.end()) return tag;
+    if (sides) return region_of_side(named->second == "inside" ? 1 : 0);
+    return number_in(named->second, "region ").value_or(tag);
+  };
   for (std::int64_t& region : mesh.regions) {
-    const auto named = text.names.find({3, region});
-    if (named == text.names.end()) continue;
-    const std::int64_t told = number_in(named->second, "region ").value_or(region);
-    mesh.sides_contradict = mesh.sides_contradict || (told > 0 && told != region);
+    const std::int64_t told = region_of(region);
+    mesh.sides_contradict = mesh.sides_contradict || (!sides && told > 0 && told != region &&
+                                                      !text.names.contains({2, told}));
     region = told;
   }
   mesh.has_names = true;
@@ -280,10 +290,11 @@ MeshFile read_gmsh(const std::string& path) {
     const std::string_view start = group.first == 2 ? "label " : "region ";
     const std::optional<std::int64_t> told = number_in(name, start);
     const std::size_t blank = told ? name.find(' ', start.size()) : std::string::npos;
-    mesh.names[{group.first, told.value_or(group.second)}] = !told ? name
-                                                             : blank == std::string::npos
-                                                                 ? ""
-                                                                 : name.substr(blank + 1);
+    const std::int64_t number =
+        group.first == 3 ? region_of(group.second) : told.value_or(group.second);
+    mesh.names[{group.first, number}] = !told                        ? name
+                                        : blank == std::string::npos ? ""
+                                                                     : name.substr(blank + 1);
   }
   for (const std::int64_t group : groups) {
     const auto named = text.names.find({2, group});
@@ -295,7 +306,6 @@ MeshFile read_gmsh(const std::string& path) {
     }
     mesh.labels.push_back(static_cast<std::int32_t>(label));
   }
-  if (text.version < 4) return mesh;
   for (const std::int64_t entity : entities) {
     const bool known = entity > 0 && entity <= std::int64_t{kNone};
     mesh.facets.push_back(known ? static_cast<Index>(entity - 1) : kNone);

@@ -40,6 +40,8 @@ struct MeshFile {
   bool boxes_differ = false;
   // Elements are in no group of Gmsh's, or in several. Delmesher writes no such file.
   bool groups_differ = false;
+  // Groups of triangles and of tetrahedra have one tag. Delmesher writes no such file.
+  bool tags_shared = false;
   // The names of groups say another side, or another region, than their numbers. Of a mesh that it
   // has made delmesher writes no such file.
   bool sides_contradict = false;

@@ -345,6 +345,8 @@ void Improved::check_list() {
   // Other programs that improve a mesh write none where there were none.
   if (mesh_.groups_differ && given_.has_names && !given_.groups_differ)
     report.fail("elements are in no physical group, or in several");
+  if (mesh_.tags_shared && !given_.tags_shared)
+    report.fail("groups of triangles and of tetrahedra have one tag");
   if (mesh_.comments_within) report.fail("comments are where some take them for entries");
   if (mesh_.more_than_single) report.fail("coordinates are said to be of single precision");
   add(std::move(report));

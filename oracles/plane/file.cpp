@@ -350,10 +350,23 @@ std::int32_t marker_of(const std::string& path, const GmshText& text, std::int64
   return marker;
 }
 
+// "inside" and "outside", or with regions "region A" and "outside A" for the attribute A.
+void add_side(const std::string& path, const std::string& name, PlaneFile& file) {
+  const bool outside = name.starts_with("outside");
+  file.inside.push_back(outside ? 0 : 1);
+  if (name == "inside" || name == "outside") return;
+  const std::string_view start = outside ? "outside " : "region ";
+  if (!name.starts_with(start)) throw ReadError(path + ": a side by another name");
+  const std::string number = name.substr(start.size());
+  TextReader reader(path, number, '\0');
+  file.attributes.push_back(reader.number());
+  reader.expect_nothing();
+}
+
 PlaneFile read_gmsh(const std::string& path) {
   PlaneFile file;
-  file.lists_edges = true;
-  std::vector<std::int64_t> groups;  // of edges
+  file.lists_edges = file.has_attributes = true;
+  std::vector<std::int64_t> groups, surfaces;  // of edges, of triangles
   const auto fail = [&](const char* why) { throw ReadError(path + ": " + why); };
   const GmshText text = read_gmsh_text(path, [&](const GmshElement& element) {
     const auto& n = element.nodes;
@@ -361,19 +374,20 @@ PlaneFile read_gmsh(const std::string& path) {
       file.edges.push_back({n[0], n[1]});
       groups.push_back(element.group);
     } else if (element.type == 2) {
-      if (element.group != 1 && element.group != 2) fail("triangles on neither side");
       file.triangles.push_back({n[0], n[1], n[2]});
-      file.inside.push_back(element.group == 1 ? 1 : 0);
+      surfaces.push_back(element.group);
     } else {
       fail("an element that is neither a line nor a triangle");
     }
   });
-  if (text.version != 4.1) fail("no text of version 4.1");
   if (text.groups_differ) fail("an element is in no physical group, or in several");
-  for (const auto& [group, name] : text.names) {
-    if (group.first == 2 && name != (group.second == 1 ? "inside" : "outside")) {
-      fail("a side by another name");
-    }
+  if (text.tags_shared) fail("groups of edges and of triangles have one tag");
+  for (const std::int64_t group : surfaces) {
+    const auto found = text.names.find({2, group});
+    if (found == text.names.end()) fail("triangles on neither side");
+    const bool exchanged = found->second == (group == 1 ? "outside" : "inside");
+    if (group <= 2 && exchanged) fail("a side by another name");
+    add_side(path, found->second, file);
   }
   for (const std::int64_t group : groups) file.markers.push_back(marker_of(path, text, group));
   for (const Position& p : text.nodes) {

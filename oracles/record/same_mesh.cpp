@@ -365,6 +365,9 @@ class SameMesh {
     if (mesh_.groups_differ) {
       report_.fail("the file has elements in no physical group, or in several");
     }
+    if (mesh_.tags_shared) {
+      report_.fail("the file has a group of triangles and one of tetrahedra with one tag");
+    }
     if (mesh_.sides_contradict) {
       report_.fail("the names of the file's regions are not those of their numbers");
     }

@@ -121,6 +121,7 @@ constexpr Option kOptions[] = {
      .target = &Promise::improve,
      .words = kOffOn},
     {.name = "--slivers", .tasks = kMesh, .takes = Takes::word, .words = kOffOn},
+    {.name = "--msh", .tasks = kAll, .takes = Takes::word, .words = {"2.2", "4.1"}},
     {.name = "--simplify-bridges", .tasks = kMesh, .takes = Takes::word, .words = kOffOn},
     {.name = "--preset",
      .tasks = kMesh | kPlane,

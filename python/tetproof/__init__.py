@@ -14,6 +14,7 @@ import difflib
 import inspect
 import os
 import sys
+import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple, TypeVar, Union
 
 import numpy as np
@@ -184,9 +185,9 @@ class Mesh:
         volumes: Array = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
         return volumes
 
-    def write(self, path: "Union[str, os.PathLike[str]]", *, order: int = 1, ascii: bool = False) -> None:
+    def write(self, path: "Union[str, os.PathLike[str]]", *, order: int = 1, ascii: bool = False, msh: str = "4.1") -> None:
         """Write a file, see `write`."""
-        write(path, self, order=order, ascii=ascii)
+        write(path, self, order=order, ascii=ascii, msh=msh)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` of the tetrahedra and the boundary, with cell data ``label`` and ``inside``."""
@@ -605,17 +606,22 @@ def _called(names: Mapping[int, str]) -> Dict[int, str]:
 
 
 def write(path: "Union[str, os.PathLike[str]]", mesh: Union[Mesh, Surface], names: Optional[Mapping[int, str]] = None, *,
-          order: int = 1, ascii: bool = False) -> None:
+          order: int = 1, ascii: bool = False, msh: str = "4.1") -> None:
     """Write a mesh, or a surface, in the format of the extension; labels are called by `names` (of the mesh).
 
     .mesh, .msh, .vtu, .vtk, .xdmf, .inp, .bdf, .node, .tet; .stl, .ply and .off hold the boundary alone. ValueError says why a file
     could not be written; it is complete or not there. With ``order=2`` the elements have a node in the middle of every edge, too
     (.mesh, .msh, .vtu, .vtk, .inp, .bdf). .msh and .vtu hold bytes, with ``ascii=True`` text.
+    ``msh="2.2"`` is the older version of .msh, which MFEM and GetDP read. Python warns of what the format cannot hold.
     """
+    if msh not in ("4.1", "2.2"):
+        raise ValueError("msh must be '4.1' or '2.2'")
     called = _called(getattr(mesh, "names", {}) if names is None else names)
     if hasattr(mesh, "tetrahedra"):
-        _core.write_mesh(os.fspath(path), _fields(mesh), called, _called(mesh.region_names), order, ascii)
+        lost = _core.write_mesh(os.fspath(path), _fields(mesh), called, _called(mesh.region_names), order, ascii, msh == "2.2")
     elif hasattr(mesh, "triangles"):
-        _core.write_surface(os.fspath(path), *_surface(mesh, None, None), called)
+        lost = _core.write_surface(os.fspath(path), *_surface(mesh, None, None), called)
     else:
         raise TypeError("a mesh or a surface is expected, not %s" % type(mesh).__name__)
+    for line in lost:
+        warnings.warn(line, stacklevel=2)
