@@ -48,10 +48,12 @@ void read(std::string_view bytes, Format format, const NodeFile& node_file,
     case Format::off:
       return read_off(bytes, builder);
     case Format::obj:
+      builder.weld_seams();
       return read_obj(bytes, options.planar, builder);
     case Format::stl:
       return read_stl(bytes, builder);
     case Format::ply:
+      builder.weld_seams();
       return read_ply(bytes, builder);
     case Format::smesh:
       return read_tetgen(bytes, TetgenKind::smesh, node_file, builder);

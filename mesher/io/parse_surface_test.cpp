@@ -268,6 +268,71 @@ TEST(ReadPly, LabelsAreIntegersOf32Bits) {
   expect_error(head + "0.5\n", "x.ply", "x.ply:14: a label that is not a 32-bit integer");
 }
 
+// A box with a box in it, whose facets are given from either side.
+std::string boxes_of_facets(const std::string& end) {
+  return "16 3\n1 0 0 0\n2 4 0 0\n3 4 4 0\n4 0 4 0\n5 0 0 4\n6 4 0 4\n7 4 4 4\n8 0 4 4\n"
+         "9 1 1 1\n10 3 1 1\n11 3 3 1\n12 1 3 1\n13 1 1 3\n14 3 1 3\n15 3 3 3\n16 1 3 3\n"
+         "12 0\n1\n4 1 2 3 4\n1\n4 5 6 7 8\n1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n"
+         "1\n4 4 1 5 8\n1\n4 9 10 11 12\n1\n4 13 14 15 16\n1\n4 9 10 14 13\n"
+         "1\n4 10 11 15 14\n1\n4 11 12 16 15\n1\n4 12 9 13 16\n" +
+         end;
+}
+
+// Facets of TetGen's files have no orientation, and hole points say what is left out.
+TEST(ReadTetgen, FacetsAreTakenFromEitherSide) {
+  const auto volume = [](const Surface& s) {
+    double sum = 0;
+    for (const auto& [i, j, k] : s.triangles) {
+      const auto &a = s.vertices[i], &b = s.vertices[j], &c = s.vertices[k];
+      sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+             a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return sum / 6;
+  };
+  const ReadResult hollow = read(boxes_of_facets("1\n1 2 2 2\n0\n"), "x.poly");
+  ASSERT_TRUE(hollow.ok()) << hollow.error;
+  EXPECT_EQ(hollow.warnings, std::vector<std::string>());
+  EXPECT_DOUBLE_EQ(volume(hollow.surface), 64 - 8);
+  // TetGen would fill what has no hole point, and leave out what has one.
+  const ReadResult filled = read(boxes_of_facets("0\n1\n1 2 2 2 7 -1\n"), "x.poly");
+  EXPECT_EQ(filled.warnings,
+            (std::vector<std::string>{
+                "1 region points ignored: all that is inside is one region",
+                "the closed surface at (1, 3, 1) is inside another, without a hole point: TetGen "
+                "would fill it, here it is a cavity"}));
+  EXPECT_DOUBLE_EQ(volume(filled.surface), 64 - 8);
+  const ReadResult emptied = read(boxes_of_facets("2\n1 2 2 2\n2 0.5 0.5 0.5\n"), "x.poly");
+  EXPECT_EQ(emptied.warnings,
+            (std::vector<std::string>{"the hole point (0.5, 0.5, 0.5) is inside the solid: TetGen "
+                                      "would leave that part out, here it is meshed"}));
+}
+
+// Vertices repeated along the seams of textures are one; those of bodies that touch are not.
+TEST(ReadSurface, SeamsOfObjAndPlyAreClosed) {
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -0\nv 1 0 0\nv 0 1 0\n"
+      "f 1 3 2\nf 5 6 4\nf 6 7 4\nf 5 4 7\n";
+  const ReadResult closed = read(obj, "x.obj");
+  ASSERT_TRUE(closed.ok()) << closed.error;
+  EXPECT_EQ(closed.surface.vertices.size(), 4U);
+  EXPECT_EQ(closed.surface.triangles, (std::vector<std::array<std::uint32_t, 3>>{
+                                          {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
+  EXPECT_EQ(
+      closed.warnings,
+      (std::vector<std::string>{"3 vertices along seams joined to others at the same place"}));
+  const ReadResult ply = read(
+      "ply\nformat ascii 1.0\nelement vertex 7\nproperty double x\nproperty double y\nproperty "
+      "double z\nelement face 4\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n"
+      "0 1 0\n0 0 1\n0 0 0\n1 0 0\n0 1 0\n3 0 2 1\n3 4 5 3\n3 5 6 3\n3 4 3 6\n",
+      "x.ply");
+  EXPECT_EQ(ply.surface.triangles, closed.surface.triangles);
+  const std::string body =
+      "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
+  const ReadResult two = read(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\n" + body, "x.obj");
+  EXPECT_EQ(two.surface.vertices.size(), 8U);
+}
+
 TEST(ReadTetgen, FacetsWithHolesAndNodeFiles) {
   const std::string points =
       "8 3\n1 0 0 0\n2 4 0 0\n3 4 4 0\n4 0 4 0\n5 1 1 0\n6 3 1 0\n7 3 3 0\n8 1 3 0\n";

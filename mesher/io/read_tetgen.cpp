@@ -206,22 +206,25 @@ void TetgenReader::read_facets(TetgenKind kind) {
   }
 }
 
-// Volume holes and regions say nothing that parity does not, or ask for more than a surface.
+// Regions ask for more than a surface.
 void TetgenReader::read_holes_and_regions() {
-  for (const char* what : {"hole", "region"}) {
-    if (!in_.lines().next_line()) return;
-    const auto count = in_.need_integer<std::uint64_t>(std::string("number of ") + what + "s");
-    in_.check_count(count, std::numeric_limits<std::uint64_t>::max(), what);
+  std::vector<Point3> holes;
+  for (const std::string what : {"hole", "region"}) {
+    if (!in_.lines().next_line()) break;
+    const auto count = in_.need_integer<std::uint64_t>("number of " + what + "s");
+    in_.check_count(count, std::numeric_limits<std::uint64_t>::max(), what.c_str());
     for (std::uint64_t i = 0; i < count; ++i) {
-      in_.need_line(what);
-      in_.need_integer<std::int64_t>(std::string(what) + " number");
-      need_point();
+      in_.need_line(what.c_str());
+      in_.need_integer<std::int64_t>(what + " number");
+      const Point3 point = need_point();
+      if (what == "hole") holes.push_back(point);
     }
-    if (count > 0) {
-      builder_.warn(std::to_string(count) + " " + what +
-                    " points ignored: what is inside is decided by parity");
+    if (count > 0 && what == "region") {
+      builder_.warn(std::to_string(count) +
+                    " region points ignored: all that is inside is one region");
     }
   }
+  builder_.take_either_orientation(std::move(holes));
   if (in_.lines().next_line()) builder_.warn("lines after the region list ignored");
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
+#include "mesher/geometry/orientation.h"
 #include "mesher/geometry/triangulate.h"
 #include "mesher/io/text.h"
 
@@ -126,6 +128,54 @@ void SurfaceBuilder::triangulate(std::span<const std::vector<std::uint32_t>> loo
   deviation_ = std::max(deviation_, result.deviation);
 }
 
+// Only ends of edges with one triangle are joined, so bodies that touch stay two.
+void SurfaceBuilder::join_seams() {
+  auto& vertices = surface_.vertices;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& t : surface_.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
+  }
+  std::vector<bool> at_seam(vertices.size(), false);
+  for (const auto& [ends, count] : edges) {
+    if (count == 1) at_seam[ends.first] = at_seam[ends.second] = true;
+  }
+  std::map<std::array<double, 3>, std::uint32_t> first;  // -0 and +0 are equal
+  std::vector<std::uint32_t> target(vertices.size());
+  std::uint32_t kept = 0, joined = 0;
+  std::vector<std::array<double, 3>> places;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    polling_.poll(8);
+    if (at_seam[v]) {
+      const auto [found, is_new] = first.try_emplace(vertices[v], kept);
+      target[v] = found->second;
+      if (!is_new) {
+        ++joined;
+        continue;
+      }
+    }
+    target[v] = kept++;
+    places.push_back(vertices[v]);
+  }
+  if (joined == 0) return;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> after;
+  std::size_t open_before = 0, open_after = 0;
+  for (const auto& [ends, count] : edges) {
+    open_before += count == 1 ? 1 : 0;
+    after[std::minmax(target[ends.first], target[ends.second])] += count;
+  }
+  for (const auto& [ends, count] : after) open_after += count == 1 ? 1 : 0;
+  if (open_after >= open_before) return;
+  vertices = std::move(places);
+  for (auto& triangle : surface_.triangles) {
+    for (std::uint32_t& v : triangle) v = target[v];
+  }
+  for (auto& line : lines_) {
+    for (std::uint32_t& v : line) v = target[v];
+  }
+  warn(std::to_string(joined) + (joined == 1 ? " vertex" : " vertices") +
+       " along seams joined to others at the same place");
+}
+
 void SurfaceBuilder::report_polygons() {
   if (triangulated_ > 0) note("triangulated " + std::to_string(triangulated_) + " polygons");
   if (non_planar_ > 0) {
@@ -173,6 +223,10 @@ Surface SurfaceBuilder::finish() {
     triangulate(loop, polygon.label, polygon.position);
   }
   if (surface_.triangles.empty() && lines_.empty()) fail({}, "no faces");
+  if (seams_) join_seams();
+  if (holes_) {
+    for (const std::string& text : orient_facets(surface_, *holes_, polling_)) warn(text);
+  }
   report_polygons();
   report_unused_vertices();
   if (!labelled_) surface_.labels.clear();

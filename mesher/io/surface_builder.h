@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mesher/base/polling.h"
@@ -38,6 +40,11 @@ class SurfaceBuilder {
   void add_polygon_with_holes(std::span<const std::vector<std::uint32_t>> loops, std::int32_t label,
                               Position position);
 
+  // The faces may go round either way; what is inside is said by hole points (orient_facets).
+  void take_either_orientation(std::vector<std::array<double, 3>> holes) {
+    holes_ = std::move(holes);
+  }
+
   // An edge between vertices that have been added: for outlines in the plane, not of the surface.
   void add_line(const std::array<std::uint32_t, 2>& ends) { lines_.push_back(ends); }
   const std::vector<std::array<std::uint32_t, 2>>& lines() const { return lines_; }
@@ -58,6 +65,10 @@ class SurfaceBuilder {
   // Replaces vertices of equal coordinates by the first of them (-0 = +0, written as +0).
   void weld();
 
+  // Asks finish() to join vertices at the same place where that closes the surface: formats repeat
+  // them along seams of textures and normals.
+  void weld_seams() { seams_ = true; }
+
   // Triangulates and checks; throws ParseError, also if there are neither faces nor lines.
   Surface finish();
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -74,17 +85,19 @@ class SurfaceBuilder {
   void triangulate(std::span<const std::vector<std::uint32_t>> loops, std::int32_t label,
                    Position position);
   void add_triangle(const std::array<std::uint32_t, 3>& triangle, std::int32_t label);
+  void join_seams();
   void report_polygons();
   void report_unused_vertices();
 
   Polling polling_;
   Surface surface_;
-  bool labelled_ = false;
+  bool labelled_ = false, seams_ = false;
   std::vector<std::uint32_t> corners_;
   std::vector<Polygon> polygons_;
   std::vector<std::array<std::uint32_t, 2>> lines_;
   std::vector<std::string> warnings_, notes_;
   LabelNames names_;
+  std::optional<std::vector<std::array<double, 3>>> holes_;
 
   std::uint64_t triangulated_ = 0, non_planar_ = 0, non_simple_ = 0;
   double deviation_ = 0;

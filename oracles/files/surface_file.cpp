@@ -22,8 +22,16 @@ void add_polygon(Polyhedron& surface, const std::vector<Index>& corners, Index p
 Polyhedron read_off(const std::string& path, std::string_view text) {
   TextReader reader(path, text);
   Polyhedron surface;
-  if (!reader.word().ends_with("OFF")) reader.fail("the file does not begin with OFF");
-  const std::uint64_t vertices = reader.count(), faces = reader.count();
+  // The number of vertices may stand right behind the keyword.
+  const std::string keyword(reader.word());
+  const std::size_t digits = std::min(keyword.size(), keyword.find("OFF") + 3);
+  if (!keyword.substr(0, digits).ends_with("OFF")) reader.fail("the file does not begin with OFF");
+  const std::string number = keyword.substr(digits);
+  const std::uint64_t vertices =
+      number.empty()
+          ? reader.count()
+          : reader.possible(static_cast<std::uint64_t>(TextReader(path, number).integer()));
+  const std::uint64_t faces = reader.count();
   reader.skip_line();  // number of edges
   for (std::uint64_t i = 0; i < vertices; ++i) {
     const double x = reader.number(), y = reader.number(), z = reader.number();
@@ -302,8 +310,7 @@ class PlyReader {
   std::size_t at_ = 0;
 };
 
-// TetGen's .smesh and .poly. A .poly facet must be one polygon, as no code here cuts holes. Points
-// may be in a .node file of the same name.
+// TetGen's .smesh and .poly. Points may be in a .node file of the same name.
 Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly) {
   TextReader reader(path, text);
   Polyhedron surface;
@@ -333,26 +340,124 @@ Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly
   const std::string_view flag = reader.word_in_line();
   const bool markers = !flag.empty() && flag != "0";
   reader.skip_line();
+  const auto read_polygon = [&] {
+    std::vector<Index> corners(reader.count());
+    for (Index& corner : corners) corner = reader.index(base, surface.vertices.size());
+    return corners;
+  };
+  Index polygons = 0;
   for (std::uint64_t f = 0; f < facets; ++f) {
     std::int64_t marker = 0;
+    std::vector<std::vector<Index>> parts;
+    std::vector<Position> holes;
     if (poly) {
-      const std::int64_t polygons = reader.integer();
-      const std::string_view holes = reader.word_in_line(), given = reader.word_in_line();
-      if (polygons != 1 || (!holes.empty() && holes != "0")) {
-        reader.fail("a facet of several polygons or with holes is not read here");
+      const std::uint64_t count = reader.count();
+      const std::string_view hole_count = reader.word_in_line();
+      const std::int64_t hole_points =
+          hole_count.empty() ? 0 : TextReader(path, hole_count).integer();
+      const std::string_view given = reader.word_in_line();
+      if (!given.empty()) marker = TextReader(path, given).integer();
+      reader.skip_line();
+      for (std::uint64_t i = 0; i < count; ++i) {
+        parts.push_back(read_polygon());
+        reader.skip_line();
       }
+      for (std::int64_t i = 0; i < hole_points; ++i) {
+        reader.integer();
+        const double x = reader.number(), y = reader.number(), z = reader.number();
+        holes.push_back({x, y, z});
+        reader.skip_line();
+      }
+    } else {
+      parts.push_back(read_polygon());
+      const std::string_view given = reader.word_in_line();
       if (!given.empty()) marker = TextReader(path, given).integer();
       reader.skip_line();
     }
-    std::vector<Index> corners(reader.count());
-    for (Index& corner : corners) corner = reader.index(base, surface.vertices.size());
-    const std::string_view given = reader.word_in_line();
-    if (!poly && !given.empty()) marker = TextReader(path, given).integer();
-    reader.skip_line();
-    add_polygon(surface, corners, static_cast<Index>(f));
+    std::erase_if(parts, [](const std::vector<Index>& corners) { return corners.size() < 3; });
+    if (holes.empty()) {
+      for (const std::vector<Index>& corners : parts) add_polygon(surface, corners, polygons++);
+    } else {
+      const auto triangles =
+          parts.empty() ? std::nullopt : cut_facet(surface.vertices, parts, holes);
+      if (!triangles) reader.fail("a facet whose holes are not inside its polygons");
+      for (const auto& triangle : *triangles) {
+        surface.triangles.push_back(triangle);
+        surface.polygons.push_back(polygons++);
+      }
+    }
     if (markers) surface.labels.resize(surface.triangles.size(), static_cast<std::int32_t>(marker));
   }
   return surface;
+}
+
+// Facets of TetGen's files have no orientation: those that hang together by edges of two are turned
+// as the first of them goes round.
+void agree(Polyhedron& surface) {
+  std::map<std::pair<Index, Index>, std::vector<Index>> edges;
+  for (Index t = 0; t < surface.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = surface.triangles[t][k], b = surface.triangles[t][(k + 1) % 3];
+      edges[{std::min(a, b), std::max(a, b)}].push_back(t);
+    }
+  }
+  const auto goes = [&](Index t, Index a, Index b) {
+    const auto& c = surface.triangles[t];
+    return (c[0] == a && c[1] == b) || (c[1] == a && c[2] == b) || (c[2] == a && c[0] == b);
+  };
+  std::vector<bool> seen(surface.triangles.size(), false);
+  for (Index seed = 0; seed < seen.size(); ++seed) {
+    if (seen[seed]) continue;
+    seen[seed] = true;
+    for (std::vector<Index> open = {seed}; !open.empty();) {
+      const Index t = open.back();
+      open.pop_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = surface.triangles[t][k], b = surface.triangles[t][(k + 1) % 3];
+        const std::vector<Index>& both = edges.at({std::min(a, b), std::max(a, b)});
+        if (both.size() != 2) continue;
+        const Index other = both[0] == t ? both[1] : both[0];
+        if (seen[other]) continue;
+        seen[other] = true;
+        if (goes(other, a, b)) std::swap(surface.triangles[other][1], surface.triangles[other][2]);
+        open.push_back(other);
+      }
+    }
+  }
+}
+
+// Vertices at one place become one where each of them ends an edge of one triangle alone, and edges
+// are closed by that: seams of textures and normals, in OBJ and PLY.
+void close_seams(Polyhedron& surface) {
+  using Edge = std::pair<Index, Index>;
+  std::map<Edge, int> edges;
+  const auto edge = [](Index a, Index b) { return Edge(std::min(a, b), std::max(a, b)); };
+  for (const auto& t : surface.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) ++edges[edge(t[k], t[(k + 1) % 3])];
+  }
+  std::vector<bool> ends(surface.vertices.size(), false);
+  for (const auto& [e, count] : edges) {
+    if (count == 1) ends[e.first] = ends[e.second] = true;
+  }
+  std::map<Position, Index> at;
+  std::vector<Position> vertices;
+  std::vector<Index> number;
+  for (Index v = 0; v < surface.vertices.size(); ++v) {
+    const auto next = static_cast<Index>(vertices.size());
+    const Index taken = ends[v] ? at.emplace(surface.vertices[v], next).first->second : next;
+    if (taken == next) vertices.push_back(surface.vertices[v]);
+    number.push_back(taken);
+  }
+  std::map<Edge, int> closed;
+  for (const auto& [e, count] : edges) closed[edge(number[e.first], number[e.second])] += count;
+  const auto open = [](const std::map<Edge, int>& all) {
+    return std::ranges::count_if(all, [](const auto& e) { return e.second == 1; });
+  };
+  if (open(closed) >= open(edges)) return;
+  surface.vertices = std::move(vertices);
+  for (auto& triangle : surface.triangles) {
+    for (Index& v : triangle) v = number[v];
+  }
 }
 
 bool is_binary_stl(std::string_view text) {
@@ -360,8 +465,11 @@ bool is_binary_stl(std::string_view text) {
          text.size() == 84 + 50 * static_cast<std::uint64_t>(binary<std::uint32_t>(text, 80));
 }
 
+// What the triangles of a format may not agree in at their edges.
+enum class Seams : std::uint8_t { none, vertices, orientation };
+
 // Faces of more than three corners are fans.
-Polyhedron read_any(const std::string& file) {
+Polyhedron read_any(const std::string& file, Seams& seams) {
   const std::string text = read_whole_file(file), path = without_gz(file);
   const std::string_view start = std::string_view(text).substr(0, 200);
   std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
@@ -369,9 +477,11 @@ Polyhedron read_any(const std::string& file) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   if (is_zip(start)) return read_three_mf(path, text);
-  if (start.starts_with("ply")) return PlyReader(path, text).read();
+  const bool ply = start.starts_with("ply"), tetgen = extension == "smesh" || extension == "poly";
+  seams = ply || extension == "obj" ? Seams::vertices : tetgen ? Seams::orientation : Seams::none;
+  if (ply) return PlyReader(path, text).read();
   if (extension == "obj") return read_obj(path, text);
-  if (extension == "smesh" || extension == "poly") {
+  if (tetgen) {
     return read_tetgen(path, text, extension == "poly");
   }
   if (extension == "stl") {
@@ -383,8 +493,11 @@ Polyhedron read_any(const std::string& file) {
 }  // namespace
 
 Polyhedron read_surface(const std::string& path) {
-  Polyhedron surface = read_any(path);
+  Seams seams = Seams::none;
+  Polyhedron surface = read_any(path, seams);
   cut_polygons(surface);
+  if (seams == Seams::orientation) agree(surface);
+  if (seams == Seams::vertices) close_seams(surface);
   return surface;
 }
 
