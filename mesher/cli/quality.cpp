@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
+#include <set>
 #include <span>
 
 #include "mesher/base/sort_unique.h"
@@ -114,6 +116,37 @@ class InputAngles {
     return smallest;
   }
 
+  // Of a tetrahedron whose vertices are nearer to each other than a fifth of its longest edge, on
+  // facets that do not touch: how near.
+  std::string thin(const std::array<std::uint32_t, 4>& tet) const {
+    std::array<std::set<std::uint32_t>, 4> facets, around;  // of a corner; the vertices of those
+    for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (has(mesh_.boundary[t], tet[k])) facets[k].insert(mesh_.boundary_facets[t]);
+      }
+    }
+    for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (!facets[k].contains(mesh_.boundary_facets[t])) continue;
+        around[k].insert(mesh_.boundary[t].begin(), mesh_.boundary[t].end());
+      }
+    }
+    double longest = 0, nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double length = norm(edge(tet[i], tet[j]));
+        longest = std::max(longest, length);
+        const bool touch =
+            std::ranges::any_of(around[i], [&](std::uint32_t v) { return around[j].contains(v); });
+        if (!facets[i].empty() && !facets[j].empty() && !touch) nearest = std::min(nearest, length);
+      }
+    }
+    if (nearest > longest / 5) return "";
+    char text[64];
+    std::snprintf(text, sizeof text, ", where the surface is %.2g from itself", nearest);
+    return text;
+  }
+
  private:
   template <class Cell>
   static bool has(const Cell& cell, std::uint32_t v) {
@@ -176,12 +209,10 @@ std::string sharpest_edge(const Result& result) {
 std::string quality_text(const Result& result) {
   const MeshStatistics& s = result.statistics.final;
   if (!has_sharpest(result)) return "";
-  return std::to_string(s.tetrahedra) + " tetrahedra, dihedral angles " +
-         number(s.min_dihedral, 2) + " to " + number(s.max_dihedral, 2) +
-         " degrees, smallest face angle " + number(s.min_face_angle, 2) + ", gamma " +
-         number(s.gamma_1_percent, 3) + " / " + number(s.mean_gamma, 3) + " / " +
-         number(s.min_gamma, 3) + " (1 % / mean / smallest), " + std::to_string(s.below_5) +
-         " below 5 degrees, the worst at " + sharpest_edge(result);
+  return "dihedral angles " + number(s.min_dihedral, 2) + " to " + number(s.max_dihedral, 2) +
+         " degrees, " + std::to_string(s.below_5) + " tetrahedra below 5, the smallest at " +
+         sharpest_edge(result) + "; smallest face angle " + number(s.min_face_angle, 2) +
+         "; mean shape " + number(s.mean_gamma, 2) + " (1 is regular)";
 }
 
 std::string quality_text(const PlaneResult& result) {
@@ -204,9 +235,9 @@ std::string quality_text(const PlaneResult& result) {
     }
   }
   if (smallest > 180) return "";
-  return std::to_string(s.triangles) + " triangles, angles " + number(s.min_angle, 2) + " to " +
-         number(s.max_angle, 2) + " degrees, mean of the smallest " + number(s.mean_min_angle, 2) +
-         ", the worst at " + place(mesh.vertices[worst]);
+  return "angles " + number(s.min_angle, 2) + " to " + number(s.max_angle, 2) +
+         " degrees, the smallest at " + place(mesh.vertices[worst]) + "; mean of the smallest " +
+         number(s.mean_min_angle, 2);
 }
 
 std::vector<std::string> quality_warnings(const Result& result, double delta) {
@@ -232,10 +263,10 @@ std::vector<std::string> quality_warnings(const Result& result, double delta) {
   if (s.min_dihedral < kSharp) {
     const double wedge = input.wedge(s.sharpest_dihedral);
     const bool forced = wedge <= kForced * s.min_dihedral;
+    const std::string why = forced ? ", where facets of the input meet at " + number(wedge, 2)
+                                   : input.thin(s.sharpest_dihedral);
     warnings.push_back("the smallest dihedral angle is " + number(s.min_dihedral, 2) +
-                       " degrees, at " + sharpest_edge(result) +
-                       (forced ? ", where facets of the input meet at " + number(wedge, 2)
-                               : ", and no edge of the input forces it there"));
+                       " degrees, at " + sharpest_edge(result) + why);
   }
   return warnings;
 }

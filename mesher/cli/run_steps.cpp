@@ -143,9 +143,15 @@ io::WriteStatus RunSteps::put_in_place(const Outcome& outcome) {
   outputs.make_folders();
   io::WriteStatus status = outcome.write(outputs);
   if (!status.ok()) return status;
-  const Deferring deferring;  // all files or none
-  status = outputs.commit();
+  status = commit(outputs);
   facts_.write_seconds = seconds() - start;
+  return status;
+}
+
+io::WriteStatus RunSteps::commit(io::OutputSet& outputs) {
+  const Committing committing;
+  io::WriteStatus status = outputs.commit();
+  note_files_in_place(status.ok());
   return status;
 }
 
@@ -174,7 +180,7 @@ int RunSteps::finish(const Outcome& outcome) {
   io::WriteStatus status = put_in_place(outcome);
   if (status.ok()) status = write_stats(outcome);
   if (!status.ok()) return fail(kUnreadable, status.error);
-  return interrupted() ? fail_input(kInterrupted, "interrupted") : outcome.conclude();
+  return outcome.conclude();
 }
 
 int RunSteps::conclude(const std::array<double, kPhaseCount>& phase_seconds,
@@ -187,14 +193,16 @@ int RunSteps::conclude(const std::array<double, kPhaseCount>& phase_seconds,
     tell(text);
   }
   const std::string cells = std::string(" ") + written.cell_name;
+  std::string line;
+  for (const std::string& output : command_.outputs) line += (line.empty() ? "" : ", ") + output;
   char time[32];
-  std::snprintf(time, sizeof time, ", %.1f s", seconds());
-  remark(command_.outputs.front() + ": " + std::to_string(written.vertices) + " vertices, " +
-         std::to_string(written.cells) + cells + time);
+  std::snprintf(time, sizeof time, " in %.1f s", seconds());
+  line += ": " + std::to_string(written.vertices) + " vertices, " + std::to_string(written.cells) +
+          cells + time;
   const std::string left =
       std::to_string(written.flat) + " flat" + cells + " left in the written mesh";
   if (written.flat > 0 && written.inverted == 0) warn(left);
-  if (!written.quality.empty()) say(command_.outputs.front() + ": " + written.quality);
+  written.quality.empty() ? remark(line) : say(line + "; " + written.quality);
   if (written.inverted == 0) return kDone;
   return fail_input(kFailed, std::to_string(written.inverted) + " inverted and " + left);
 }

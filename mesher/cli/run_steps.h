@@ -70,6 +70,8 @@ class RunSteps {
     std::function<int()> conclude;
   };
   int finish(const Outcome& outcome);
+  // Gives the files of a run their names; signals do not end it any more then.
+  static io::WriteStatus commit(io::OutputSet& outputs);
   // Warns of what the format of a file written cannot hold.
   io::WriteStatus warned(io::WriteStatus status) const {
     for (const std::string& warning : status.warnings) warn(warning);

@@ -121,6 +121,21 @@ TEST_F(Run, TheSecondSignalDoesNotWait) {
   EXPECT_EQ(files(), 1U);
 }
 
+// Exit code and files agree: what comes when files have their names comes too late.
+TEST_F(Run, NoSignalEndsARunThatIsDone) {
+  const auto child = [this](bool done) {
+    std::signal(SIGQUIT, SIG_DFL);
+    install_signal_handlers();
+    EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+    if (!done) note_files_in_place(false);
+    std::raise(SIGQUIT);
+    std::raise(SIGQUIT);
+    std::_Exit(77);
+  };
+  EXPECT_EXIT(child(true), testing::ExitedWithCode(77), "");
+  EXPECT_EXIT(child(false), testing::ExitedWithCode(kInterrupted), "");
+}
+
 // As `nohup` and a shell in the background want it.
 TEST_F(Run, AnIgnoredSignalStaysIgnored) {
   const auto child = [this] {

@@ -16,6 +16,7 @@ namespace {
 // A signal handler can reach nothing but globals: the only ones of the program.
 std::atomic<bool> signal_seen = false;
 std::atomic<bool> deferring = false;
+std::atomic<bool> files_in_place = false;
 
 constexpr std::size_t kMaxTemporaries = 64, kMaxPath = 4096;
 std::array<std::array<char, kMaxPath>, kMaxTemporaries> temporaries;
@@ -39,6 +40,7 @@ extern "C" void handle_signal(int signal, siginfo_t* info, void*) {
   for (const std::atomic<pid_t>& child : children) {
     if (const pid_t pid = child.load(); pid > 0 && !is_from_terminal(info)) ::kill(pid, signal);
   }
+  if (files_in_place.load()) return;  // the run has done what it was to do
   const bool first = !signal_seen.exchange(true);
   if (first && deferring.load()) return;
   const std::size_t count = temporary_count.load();
@@ -48,8 +50,8 @@ extern "C" void handle_signal(int signal, siginfo_t* info, void*) {
   ::_exit(kInterrupted);
 }
 
-std::array<int, 3> signals() {
-  return {SIGINT, SIGTERM, SIGHUP};
+std::array<int, 4> signals() {
+  return {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 }
 
 sigset_t signal_set() {
@@ -71,6 +73,20 @@ void install_signal_handlers() {
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
+  // A full pipe or file is an error of the write then.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
+Committing::Committing() {
+  const sigset_t ours = signal_set();
+  sigprocmask(SIG_BLOCK, &ours, &before_);
+}
+Committing::~Committing() {
+  sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void note_files_in_place(bool there) {
+  files_in_place = there;
 }
 
 void begin_deferring() {

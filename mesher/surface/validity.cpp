@@ -384,15 +384,18 @@ class Checker {
     for (std::size_t c = 0; c < wrong.size() && listed < kListed; ++c) {
       if (wrong[c] == 0) continue;
       ++listed;
+      const std::uint64_t depth = nesting[c].depth;
       result_.report.warnings.push_back(
-          "the component of triangle " + text(std::uint64_t{first[c]}) + " (" +
-          text(std::uint64_t{size[c]}) + " triangles, inside " +
-          text(std::uint64_t{nesting[c].depth}) + (nesting[c].depth == 1 ? " other" : " others") +
-          ") is oriented against the parity of its nesting and has been flipped");
+          "the closed surface of triangle " + text(std::uint64_t{first[c]}) + " (" +
+          text(std::uint64_t{size[c]}) + " triangles) is inside " + text(depth) +
+          (depth == 1 ? " other" : " others") +
+          (depth % 2 == 1 ? ", so it bounds a cavity: what it encloses is not meshed"
+                          : ", so it bounds a solid: what it encloses is meshed") +
+          " (it faced the other way)");
     }
     if (reversed > listed) {
       result_.report.warnings.push_back(text(reversed - listed) +
-                                        " more components are oriented against their nesting");
+                                        " more closed surfaces faced the other way");
     }
   }
 
