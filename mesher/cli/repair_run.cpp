@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "mesher/cli/defects.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/write_mesh.h"
+#include "mesher/surface/hints.h"
 #include "mesher/surface/repair.h"
 
 namespace delmesher::cli {
@@ -20,7 +20,7 @@ class RepairRunner : RunSteps {
  private:
   int read();
   int write();
-  int judge();
+  int conclude_with(const SurfaceReport& report);
 
   const RepairOptions& options_ = std::get<RepairOptions>(command_.options);
   Surface surface_;
@@ -39,6 +39,9 @@ int RepairRunner::read() {
   for (const std::string& line : mended.done) say(command_.input + ": " + line);
   if (mended.done.empty()) say(command_.input + ": nothing to mend");
   surface_ = std::move(mended.surface);
+  if (surface_.triangles.empty()) {
+    return fail_input(kFailed, "no triangle is left, so nothing is written");
+  }
   return read_beside(names_, surface_.labels);
 }
 
@@ -50,24 +53,19 @@ int RepairRunner::write() {
     status = warned(io::write_surface(outputs, output, surface_, names_));
     if (!status.ok()) return fail(kUnreadable, status.error);
   }
-  const Deferring deferring;
-  status = outputs.commit();
+  status = commit(outputs);
   return status.ok() ? kDone : fail(kUnreadable, status.error);
 }
 
-int RepairRunner::judge() {
-  const SurfaceReport report = check_surface(surface_);
-  if (report.status.code == StatusCode::ok) {
+int RepairRunner::conclude_with(const SurfaceReport& report) {
+  if (report.status.ok()) {
     say(command_.outputs.front() + ": a valid surface");
     return kDone;
   }
-  if (report.status.code != StatusCode::invalid_surface) {
-    return fail_input(exit_code_of(report.status.code), report.status.message);
-  }
   const std::uint64_t open = surface::holes_of(surface_).open_edges;
   const bool fills = open > 0 && !options_.fill;
-  std::string left = defects_line(report) + " left";
-  for (const Contact& contact : contacts(surface_, report)) {
+  std::string left = surface::defects_line(report) + " left";
+  for (const surface::Contact& contact : surface::contacts(surface_, report)) {
     left += ": " + contact.what + ": " + contact.advice;
   }
   return fail(kFailed, command_.outputs.front() + ": " + left + (fills ? ", see --fill" : ""));
@@ -76,8 +74,14 @@ int RepairRunner::judge() {
 int RepairRunner::run() {
   int code = check_outputs(io::boundary_files_of);
   if (code == kDone) code = read();
-  if (code == kDone) code = write();
-  return code == kDone ? judge() : code;
+  if (code != kDone) return code;
+  // Before it is written: whatever ends the run here leaves nothing behind.
+  const SurfaceReport report = check_surface(surface_);
+  if (!report.status.ok() && report.status.code != StatusCode::invalid_surface) {
+    return fail_input(exit_code_of(report.status.code), report.status.message);
+  }
+  code = write();
+  return code == kDone ? conclude_with(report) : code;
 }
 
 }  // namespace

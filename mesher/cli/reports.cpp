@@ -9,7 +9,6 @@
 #include <string>
 #include <variant>
 
-#include "mesher/cli/defects.h"
 #include "mesher/delmesher/option_table.h"
 #include "mesher/io/text.h"
 
@@ -323,7 +322,7 @@ std::string check_text(const std::string& file, const Surface& surface,
     }
   }
   if (!report.status.ok()) {
-    for (const std::string& hint : advice(surface, report)) out += "  hint: " + hint + "\n";
+    for (const std::string& hint : surface_hints(surface, report)) out += "  hint: " + hint + "\n";
   }
   return out;
 }
@@ -370,7 +369,7 @@ std::string check_json(const std::string& file, const Surface& surface,
   json["defect_count"] = total_defects(report);
   json["defect_counts"] = counts;
   json["defects"] = defects;
-  json["hints"] = report.status.ok() ? std::vector<std::string>() : advice(surface, report);
+  json["hints"] = report.status.ok() ? std::vector<std::string>() : surface_hints(surface, report);
   return dump(json);
 }
 

@@ -11,6 +11,7 @@
 #include "mesher/io/exact_file.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/write_mesh.h"
+#include "mesher/surface/hints.h"
 
 namespace delmesher::cli {
 namespace {
@@ -73,17 +74,21 @@ int Runner::write_defects(const SurfaceReport& report) const {
   sink->text(vtu ? defects_vtu(surface_, report) : coloured_ply(surface_, report));
   const Deferring deferring;
   status = outputs.commit();
-  return status.ok() ? kDone : fail(kUnreadable, status.error);
+  if (!status.ok()) return fail(kUnreadable, status.error);
+  say(command_.defects_file + ": the surface, coloured by what is wrong; " +
+      (vtu ? "ParaView opens it" : "MeshLab and Blender open it"));
+  return kDone;
 }
 
 // Counts the defects by kind; the library stops at the first.
 void Runner::count_defects(Status& status) const {
   if (status.code != StatusCode::invalid_surface || !library_.check_surface) return;
   const SurfaceReport report = check_surface(surface_);
-  const std::string line = defects_line(report);
+  const std::string line = surface::defects_line(report);
   if (report.status.code != StatusCode::invalid_surface || line.empty()) return;
   status.message += " (in all " + line;
-  for (const Contact& contact : contacts(surface_, report)) status.message += ": " + contact.what;
+  for (const surface::Contact& contact : surface::contacts(surface_, report))
+    status.message += ": " + contact.what;
   status.message += "; see delmesher check)";
 }
 
@@ -134,6 +139,7 @@ int Runner::mesh() {
 }
 
 int Runner::run() {
+  note_files_in_place(false);
   try {
     if (command_.job() == Job::plane) return run_plane(command_, library_, streams_);
     if (command_.job() == Job::repair) return run_repair(command_, library_, streams_);

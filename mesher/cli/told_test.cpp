@@ -1,10 +1,10 @@
 // The messages of a run: its progress, its end, and its statistics.
 #include <nlohmann/json.hpp>
 
-#include "mesher/cli/defects.h"
 #include "mesher/cli/progress.h"
 #include "mesher/cli/reports.h"
 #include "mesher/cli/test_run.h"
+#include "mesher/surface/hints.h"
 
 namespace delmesher::cli {
 namespace {
@@ -67,9 +67,10 @@ TEST(Reports, DefectsAreCountedInWords) {
     return report.defect_counts[static_cast<std::size_t>(kind)];
   };
   count(Defect::Kind::non_manifold_vertex) = 2;
-  EXPECT_EQ(defects_line(report), "2 non-manifold vertices");
+  EXPECT_EQ(surface::defects_line(report), "2 non-manifold vertices");
   count(Defect::Kind::open_edge) = 1;
-  EXPECT_EQ(defects_line(report), "3 defects of 2 kinds (1 open edge, 2 non-manifold vertices)");
+  EXPECT_EQ(surface::defects_line(report),
+            "3 defects of 2 kinds (1 open edge, 2 non-manifold vertices)");
 }
 
 TEST(Reports, LimitsThatStruckHaveALineEach) {
@@ -111,17 +112,21 @@ TEST_F(Told, EndsWithALineOfQualityUnlessQuiet) {
   s.below_5 = 3;
   s.sharpest_dihedral = {1, 2, 0, 3};
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
-  EXPECT_EQ(error_, path("a.mesh") +
-                        ": 1 tetrahedra, dihedral angles 54.74 to 90.00 degrees, smallest face "
-                        "angle 45.00, gamma 0.732 / 0.732 / 2e-10 (1 % / mean / smallest), 3 below "
-                        "5 degrees, the worst at (0.5, 0.5, 0)\n");
+  const std::string counts = path("a.mesh") + ": 4 vertices, 1 tetrahedra in ";
+  const std::string quality =
+      " s; dihedral angles 54.74 to 90.00 degrees, 3 tetrahedra below 5, the smallest at (0.5, "
+      "0.5, "
+      "0); smallest face angle 45.00; mean shape 0.73 (1 is regular)\n";
+  EXPECT_TRUE(error_.starts_with(counts) && error_.ends_with(quality)) << error_;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-o", path("b.vtu")}), kDone);
+  EXPECT_TRUE(error_.starts_with(path("a.mesh") + ", " + path("b.vtu") + ": 4 v")) << error_;
   EXPECT_EQ(go({"cdt", path("in.off"), "-o", path("a.mesh")}), kDone);
-  EXPECT_NE(error_.find(": 1 tetrahedra, dihedral"), std::string::npos);
+  EXPECT_NE(error_.find(" s; dihedral"), std::string::npos);
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-q"}), kDone);
   EXPECT_EQ(error_, "");
   answer_.statistics.rounding_inverted = 1;  // the failure is told at the very end
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kFailed);
-  EXPECT_NE(error_.find("(0.5, 0.5, 0)\ndelmesher: "), std::string::npos) << error_;
+  EXPECT_NE(error_.find("regular)\ndelmesher: "), std::string::npos) << error_;
 }
 
 // The tetrahedron in the corner of a cube, squeezed to a height of 0.001, as its own mesh, and as a
@@ -188,13 +193,21 @@ TEST_F(Told, WarnsOfSmallAnglesAndSaysWhetherTheInputForcesThem) {
   s.tetrahedra = 2;
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
   EXPECT_NE(error_.find("at (1, 0, 0), not the 14.47 asked for\n"), std::string::npos) << error_;
-  EXPECT_NE(error_.find("at (0.5, 0.5, 0), and no edge of the input forces it there\n"),
-            std::string::npos)
-      << error_;
+  EXPECT_NE(error_.find("at (0.5, 0.5, 0)\n"), std::string::npos) << error_;
   // Facets that meet there, but at a much larger angle.
   answer_.mesh.boundary_facets = {1, 2, 3, 4, 5, 6};
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
-  EXPECT_NE(error_.find("and no edge of the input forces it there\n"), std::string::npos);
+  EXPECT_NE(error_.find("at (0.5, 0.5, 0)\n"), std::string::npos) << error_;
+  // Facets that do not touch, near each other: a thin wall.
+  answer_.mesh.boundary = {{1, 2, 0}, {3, 5, 6}};
+  answer_.mesh.boundary_facets = {1, 2};
+  answer_.mesh.boundary_labels = {0, 0};
+  answer_.mesh.vertices.push_back({1, 0, 0.001});
+  answer_.mesh.vertices.push_back({0, 1, 0.001});
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_NE(error_.find("at (0.5, 0.5, 0), where the surface is 0.001 from itself\n"),
+            std::string::npos)
+      << error_;
 }
 
 TEST_F(Told, ImproveSaysWhatThereWasBefore) {
@@ -216,8 +229,7 @@ TEST_F(Told, ImproveSaysWhatThereWasBefore) {
   EXPECT_EQ(go({"improve", path("in.tet"), "-o", path("a.mesh"), "--stats", path("s.json")}),
             kDone);
   EXPECT_EQ(given.tetrahedra, answer_.mesh.tetrahedra);
-  EXPECT_TRUE(error_.starts_with(path("a.mesh") + ": 1 tetrahedra, dihedral angles 54.74 to 90.00"))
-      << error_;
+  EXPECT_TRUE(error_.starts_with(path("a.mesh") + ": 4 vertices, 1 tetrahedra in ")) << error_;
   EXPECT_TRUE(
       error_.ends_with("; before: 7 tetrahedra, dihedral angles 1.50 to 175.00 degrees, "
                        "smallest face angle 2.00, 3 below 5 degrees\n"))

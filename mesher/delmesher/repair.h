@@ -6,6 +6,7 @@
 
 #include "options.h"
 #include "surface.h"
+#include "surface_report.h"
 
 namespace delmesher {
 
@@ -19,5 +20,9 @@ struct RepairResult {
 // vertices of no triangle. Nothing else is moved or added. check_surface() decides whether the
 // result is valid.
 RepairResult repair_surface(const Surface& surface, const RepairOptions& options = {});
+
+// What to do about the defects that check_surface() found, or likely causes, a line each; commands
+// are in backticks. Empty if nothing is known.
+std::vector<std::string> surface_hints(const Surface& surface, const SurfaceReport& report);
 
 }  // namespace delmesher

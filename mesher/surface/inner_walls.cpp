@@ -98,11 +98,17 @@ std::optional<Enclosed> enclosed_by(const Surface& surface) {
     }
   }
   const std::map<std::uint32_t, double> volume = volumes(surface, sides);
-  for (const auto& [side, v] : volume) enclosed.parts += v > 0 ? 1 : 0;
+  std::set<std::uint32_t> filled;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const std::uint32_t behind = sides.smallest(back(t));
+    if (volume.at(behind) > 0) filled.insert(behind);
+  }
+  enclosed.parts = filled.size();
   std::set<std::uint32_t> of_walls;
   for (std::uint32_t t = 0; t < count; ++t) {
-    if (volume.at(sides.smallest(front(t))) <= 0 || volume.at(sides.smallest(back(t))) <= 0)
+    if (!filled.contains(sides.smallest(front(t))) || !filled.contains(sides.smallest(back(t)))) {
       continue;
+    }
     enclosed.walls.push_back(t);
     of_walls.insert(sheets.smallest(t));
   }

@@ -10,7 +10,9 @@
 namespace delmesher::surface {
 
 struct Enclosed {
-  std::uint64_t parts = 0;           // of space that triangles keep from the outside
+  // Parts of space that triangles keep from the outside; not those that only fronts of triangles
+  // look into: they are cavities.
+  std::uint64_t parts = 0;
   std::vector<std::uint32_t> walls;  // triangles that have such parts on both sides
   bool closes = true;                // every edge belongs to an even number of triangles
   std::uint64_t sheets = 0;          // of the walls, what is connected without going round a corner

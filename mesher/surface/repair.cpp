@@ -15,6 +15,7 @@
 
 #include "mesher/base/disjoint_sets.h"
 #include "mesher/base/face_key.h"
+#include "mesher/geometry/orientation.h"
 #include "mesher/geometry/triangulate.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
@@ -260,7 +261,10 @@ void Repair::drop_degenerate() {
   tell(flat, "triangle without area removed", "triangles without area removed");
 }
 
-// Of triangles with the same corners one stays where it closes more edges than it opens, else none.
+// Of triangles with the same corners one stays, or none. That is decided for all that hang together
+// by edges of nothing else: they are a wall between bodies, a piece that lies on a surface, or a
+// whole surface of two sides. One of each stays where they close up, or close more edges of others
+// than they open; also where nothing else is there.
 void Repair::drop_duplicates() {
   std::map<Triangle, std::vector<std::uint32_t>> same;
   for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
@@ -268,18 +272,48 @@ void Repair::drop_duplicates() {
     std::sort(key.begin(), key.end());
     same[key].push_back(t);
   }
-  const auto edges = triangles_of_edges(surface_.triangles);
+  struct Around {
+    std::vector<std::uint32_t> doubled;  // the first of each
+    std::size_t single = 0;
+  };
+  std::map<Edge, Around> edges;
+  std::size_t singles = 0;
+  for (const auto& [key, members] : same) {
+    const bool alone = members.size() == 1;
+    singles += alone ? 1 : 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Around& around = edges[edge_of(key[k], key[(k + 1) % 3])];
+      alone ? void(++around.single) : around.doubled.push_back(members[0]);
+    }
+  }
+  DisjointSets pieces(surface_.triangles.size());
+  for (const auto& [edge, around] : edges) {
+    if (around.single > 0) continue;
+    for (const std::uint32_t t : around.doubled) pieces.join(around.doubled[0], t);
+  }
+  struct Rim {
+    int closed = 0, opened = 0, bare = 0;  // edges of others: of one, of more; of none
+  };
+  std::map<std::uint32_t, Rim> rims;  // of a piece
+  for (const auto& [edge, around] : edges) {
+    for (const std::uint32_t t : around.doubled) {
+      Rim& rim = rims[pieces.smallest(t)];
+      if (around.single > 0) {
+        ++(around.single % 2 == 1 ? rim.closed : rim.opened);
+      } else if (around.doubled.size() == 1) {
+        ++rim.bare;
+      }
+    }
+  }
+  const bool only_doubled = singles == 0;
   std::vector<bool> unwanted(surface_.triangles.size());
   for (const auto& [key, members] : same) {
     if (members.size() < 2) continue;
-    int closes = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t others =
-          edges.at(edge_of(key[k], key[(k + 1) % 3])).size() - members.size();
-      closes += others % 2 == 1 ? 1 : 0;
-    }
+    const Rim& rim = rims.at(pieces.smallest(members[0]));
+    const bool stays = rim.closed > rim.opened + rim.bare ||
+                       (rim.closed + rim.opened == 0 && (rim.bare == 0 || only_doubled));
     for (const std::uint32_t t : members) unwanted[t] = true;
-    if (closes >= 2) unwanted[members[0]] = false;
+    unwanted[members[0]] = !stays;
   }
   tell(drop_if([&](std::uint32_t t) { return unwanted[t]; }), "duplicate triangle dropped",
        "duplicate triangles dropped");
@@ -288,39 +322,13 @@ void Repair::drop_duplicates() {
 // Orients the triangles of a component as most of them are.
 void Repair::orient() {
   auto& triangles = surface_.triangles;
-  const auto edges = triangles_of_edges(triangles);
-  enum : std::uint8_t { unseen, as_given, turned };
-  std::vector<std::uint8_t> state(triangles.size(), unseen);
-  const auto has = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (triangles[t][k] == a && triangles[t][(k + 1) % 3] == b) return true;
-    }
-    return false;
-  };
   std::uint64_t count = 0;
-  for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
-    if (state[seed] != unseen) continue;
-    std::vector<std::uint32_t> component = {seed};
-    state[seed] = as_given;
-    for (std::size_t i = 0; i < component.size(); ++i) {
-      polling_.poll(20);
-      const std::uint32_t t = component[i];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-        const std::vector<std::uint32_t>& both = edges.at(edge_of(a, b));
-        if (both.size() != 2) continue;
-        const std::uint32_t other = both[0] == t ? both[1] : both[0];
-        if (state[other] != unseen) continue;
-        const bool agrees = has(other, b, a);
-        state[other] = agrees == (state[t] == as_given) ? as_given : turned;
-        component.push_back(other);
-      }
-    }
-    const auto turned_ones = static_cast<std::size_t>(std::count_if(
-        component.begin(), component.end(), [&](std::uint32_t t) { return state[t] == turned; }));
-    const std::uint8_t minority = 2 * turned_ones > component.size() ? as_given : turned;
-    for (const std::uint32_t t : component) {
-      if (state[t] != minority) continue;
+  for (const Patch& patch : patches_of(triangles, polling_)) {
+    const auto turned = static_cast<std::size_t>(
+        std::count_if(patch.begin(), patch.end(), [](const PatchTriangle& t) { return t.turned; }));
+    const bool minority = 2 * turned <= patch.size();
+    for (const auto& [t, is_turned] : patch) {
+      if (is_turned != minority) continue;
       std::swap(triangles[t][1], triangles[t][2]);
       ++count;
     }
@@ -342,6 +350,11 @@ void Repair::fill() {
     const std::vector<Loop> loops = {hole.corners};
     const FaceTriangulation face = triangulate_face(surface_.vertices, loops, polling_);
     if (!face.simple || (face.deviation > kPlanar * all && hole.width > kSmall * all)) continue;
+    // A slit: there a vertex lies on an edge.
+    if (std::any_of(face.triangles.begin(), face.triangles.end(),
+                    [&](const Triangle& t) { return collinear(surface_.vertices, t); })) {
+      continue;
+    }
     std::uint64_t of_hole = 0;
     for (const Triangle& t : face.triangles) {
       // What would lie on its back does not close a hole: it sticks out of the surface.
@@ -508,7 +521,8 @@ WeldHint weld_hint(const Surface& surface) {
   };
   WeldHint hint;
   if (count.empty() || !(all > 0)) return hint;
-  std::uint64_t fewest = count.size();
+  std::uint64_t fewest = still_open(0);
+  hint.closed = count.size() - fewest;
   for (const double part : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
     char digits[32];  // of one digit, to be printed and entered
     std::snprintf(digits, sizeof digits, "%.0e", all * part);

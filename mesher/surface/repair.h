@@ -27,8 +27,8 @@ Holes holes_of(const Surface& surface);
 // A distance within which vertices may be welded so that fewest edges stay open; of several the
 // smallest, of one digit.
 struct WeldHint {
-  double distance = 0;       // 0: welding closes nothing
-  std::uint64_t closed = 0;  // edges that would be open no more
+  double distance = 0;       // 0: only vertices at the same place
+  std::uint64_t closed = 0;  // edges that would be open no more; 0: welding closes nothing
 };
 WeldHint weld_hint(const Surface& surface);
 

@@ -343,6 +343,50 @@ TEST(Repair, HolesBesideEdgesOfThreeTriangles) {
   EXPECT_TRUE(repair_surface(wall, {.weld = 0, .fill = true}).done.empty());
 }
 
+// Each triangle twice: one of each stays, and nothing is erased.
+TEST(Repair, HalvesDoubleSidedSurfaces) {
+  for (const bool turned : {true, false}) {
+    Surface both = cube();
+    for (auto [a, b, c] : cube().triangles) {
+      turned ? both.triangles.push_back({a, c, b}) : both.triangles.push_back({a, b, c});
+    }
+    const RepairResult result = repair_surface(both);
+    EXPECT_EQ(result.surface.triangles.size(), 12U);
+    EXPECT_TRUE(is_valid(result.surface));
+    EXPECT_EQ(result.done[0], "12 duplicate triangles dropped");
+    // With a body that is as it should be beside it.
+    Surface beside = both;
+    for (auto [x, y, z] : cube().vertices) beside.vertices.push_back({x + 5, y, z});
+    for (auto [a, b, c] : cube().triangles) beside.triangles.push_back({a + 8, b + 8, c + 8});
+    EXPECT_TRUE(is_valid(repair_surface(beside).surface));
+    EXPECT_EQ(repair_surface(beside).surface.triangles.size(), 24U);
+    // An open one is not erased, either; it stays open.
+    both.triangles.erase(both.triangles.begin() + 12);
+    both.triangles.erase(both.triangles.begin());
+    EXPECT_EQ(repair_surface(both).surface.triangles.size(), 11U);
+  }
+}
+
+// Where a vertex lies on the edge of a triangle there is no hole to fill.
+TEST(Repair, FillsNoSlits) {
+  Surface slit = cube();
+  slit.vertices.push_back({1, 0.5, 0.5});
+  ASSERT_EQ(slit.triangles[10], (std::array<std::uint32_t, 3>{1, 3, 7}));
+  slit.triangles[10] = {1, 3, 8};
+  slit.triangles.push_back({3, 7, 8});
+  const RepairResult result = repair_surface(slit, {.weld = 0, .fill = true});
+  EXPECT_EQ(result.surface.triangles.size(), 13U);
+  EXPECT_EQ(result.done, std::vector<std::string>());
+}
+
+TEST(WeldHint, TellsWhatIsAtOnePlace) {
+  Surface torn = cube();
+  for (const auto& v : cube().vertices) torn.vertices.push_back(v);
+  for (std::uint32_t& v : torn.triangles[0]) v += 8;
+  EXPECT_EQ(weld_hint(torn).closed, 6U);
+  EXPECT_EQ(weld_hint(torn).distance, 0);
+}
+
 TEST(WeldHint, NamesTheDistanceThatCloses) {
   EXPECT_EQ(weld_hint(cube()).closed, 0U);
   Surface torn = cube();

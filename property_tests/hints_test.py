@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""Every hint of `delmesher check` that names a command: the command, run as named, mends the surface.
+
+Usage: hints_test.py DELMESHER TETPROOF SCRATCH-FOLDER
+"""
+import itertools
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import unittest
+
+DELMESHER, TETPROOF, SCRATCH = sys.argv[1:4]
+CUBE = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+
+
+def cube(x=0.0, y=0.0, z=0.0, size=1.0):
+    return [(x + size * (v & 1), y + size * (v >> 1 & 1), z + size * (v >> 2)) for v in range(8)]
+
+
+def bodies(*places, **size):
+    points, triangles = [], []
+    for place in places:
+        triangles += [tuple(v + len(points) for v in t) for t in CUBE]
+        points += cube(*place, **size)
+    return points, triangles
+
+
+def apart(points, triangles, shift=0.0):
+    """Every triangle with vertices of its own, moved by a different multiple of the shift."""
+    soup = [tuple(x + shift * ((3 * i + k) % 5) for x in points[v]) for i, t in enumerate(triangles) for k, v in enumerate(t)]
+    return soup, [(i, i + 1, i + 2) for i in range(0, len(soup), 3)]
+
+
+def voxels(cells):
+    """The surface of unit cubes in a grid, with one vertex at each place."""
+    number, triangles = {}, []
+    cells = set(cells)
+    for cell in sorted(cells):
+        for triangle in CUBE:
+            corners = [tuple(c + (v >> k & 1) for k, c in enumerate(cell)) for v in triangle]
+            normal = next(k for k in range(3) if len({p[k] for p in corners}) == 1)
+            outwards = 1 if corners[0][normal] > cell[normal] else -1
+            if tuple(c + outwards * (k == normal) for k, c in enumerate(cell)) not in cells:
+                triangles.append(tuple(number.setdefault(p, len(number)) for p in corners))
+    return list(number), triangles
+
+
+def cases():
+    """Name, the words of the hint, and a surface."""
+    points, one = cube(), list(CUBE)
+    yield "cracks", "vertices nearly coincide", apart(points, one, 1e-7)
+    yield "soup", "vertices coincide", apart(points, one)
+    yield "hole", "1 hole", (points, one[1:])
+    yield "T-junction", "1 T-junction", (points + [(1, 0.5, 0.5)], one[:10] + [(1, 3, 8), (3, 7, 8), (1, 7, 5)])
+    yield "twice", "mends triangles without area, duplicates and orientation", (points, one + one[:1])
+    yield "turned", "mends triangles without area, duplicates and orientation", (points, [(0, 3, 2)] + one[1:])
+    yield "without area", "mends triangles without area, duplicates and orientation", (points, one + [(0, 0, 1)])
+    yield "double-sided", "a double-sided surface", (points, one + [(a, c, b) for a, b, c in one])
+    second = [tuple(v + 8 if v & 1 else v + 1 for v in t) for t in one]
+    yield "in triangles", "touch in 2 triangles", (points + cube(1), second + one)
+    yield "edge", "touch along 1 edge", voxels([(0, 0, 0), (1, 1, 0)])
+    yield "vertex", "touch at a vertex", voxels([(0, 0, 0), (1, 1, 1)])
+    ball = set(itertools.product(range(3), repeat=3))
+    yield "cavity", "touch along 1 edge", voxels(ball - {(1, 1, 1), (0, 0, 1)} | {(0, 1, 1), (1, 0, 1)})
+    yield "on a side", "bodies touch, and do not cross", (bodies((0, 0, 0))[0] + cube(1, 0.25, 0.25, 0.5), bodies((0,), (1,))[1])
+    yield "overlap", "if bodies overlap", bodies((0, 0, 0), (0.5, 0.25, 0.25))
+    wall = voxels([(0, 0, 0), (1, 0, 0)])
+    inner = [(wall[0].index((1, 0, 0)), wall[0].index((1, 1, 0)), wall[0].index((1, 1, 1))),
+             (wall[0].index((1, 0, 0)), wall[0].index((1, 1, 1)), wall[0].index((1, 0, 1)))]
+    yield "inner wall", "inner wall of 2 triangles", (wall[0], wall[1] + inner)
+
+
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def path(name):
+    return os.path.join(SCRATCH, name.replace(" ", "_"))
+
+
+class Hints(unittest.TestCase):
+    def test_the_command_that_is_named_mends(self):
+        seen = set()
+        for name, words, (points, triangles) in cases():
+            with self.subTest(name):
+                given = path(name + ".off")
+                with open(given, "w") as file:
+                    file.write("OFF\n%d %d 0\n" % (len(points), len(triangles)))
+                    file.writelines("%r %r %r\n" % tuple(map(float, p)) for p in points)
+                    file.writelines("3 %d %d %d\n" % t for t in triangles)
+                said = run(DELMESHER, "check", given)
+                self.assertEqual(said.returncode, 4, said.stderr)
+                hints = [line for line in said.stdout.split("\n") if line.startswith("  hint: ")]
+                hint = [line for line in hints if words in line]
+                self.assertEqual(len(hint), 1, said.stdout)
+                commands = re.findall("`([^`]*)`", hint[0])
+                if not commands:
+                    self.assertIn("leave walls out", hint[0])
+                    continue
+                program, *arguments = shlex.split(commands[0])
+                seen.add((program, arguments[0]))
+                mended = path(name + ".mended.off")
+                done = run({"delmesher": DELMESHER, "tetproof": TETPROOF}[program], *arguments, given, "-o", mended)
+                self.assertEqual(done.returncode, 0, commands[0] + ": " + done.stderr + done.stdout)
+                self.assertEqual(run(DELMESHER, "check", mended).returncode, 0)
+        self.assertEqual(seen, {("delmesher", "repair"), ("tetproof", "union")})
+
+
+if __name__ == "__main__":
+    shutil.rmtree(SCRATCH, ignore_errors=True)
+    os.makedirs(SCRATCH)
+    unittest.main(argv=sys.argv[:1])
