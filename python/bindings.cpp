@@ -334,6 +334,7 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
                                   taken(std::vector(defect.triangles))));
   }
   d["counts"] = counts;
+  d["hints"] = surface_hints(surface, report);
   d["places"] = places;
   d["defects"] = defects;
   d["flipped"] = report.flipped;

@@ -3,6 +3,7 @@ import gzip
 import inspect
 import os
 import pickle
+import re
 import signal
 import sys
 import threading
@@ -27,7 +28,7 @@ def areas(points, triangles):
 
 def test_a_labelled_cube():
     mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS, max_edge=0.4)
-    assert mesh.points.dtype == np.float64 and mesh.tetrahedra.dtype == np.uint32 and mesh.inside.dtype == bool
+    assert mesh.points.dtype == np.float64 and mesh.tetrahedra.dtype == np.int32 and mesh.inside.dtype == bool
     assert mesh.inside.all() and mesh.volumes().min() > 0
     assert mesh.volumes().sum() == pytest.approx(1, abs=1e-12)
     for label in range(1, 7):
@@ -72,15 +73,13 @@ def test_unknown_options_and_types():
         with pytest.raises(TypeError, match="labels must be whole numbers"):
             tetproof.mesh(POINTS, TRIANGLES, labels=labels)
     assert set(tetproof.mesh(POINTS, TRIANGLES, labels=LABELS * -1.0).labels) == set(range(-6, 0))
-    for nothing in (POINTS, None, "part.msh"):
+    for nothing in (POINTS, None):
         with pytest.raises(TypeError, match="`read_mesh` makes one"):
             tetproof.improve(nothing)
     with pytest.raises(TypeError, match="no such option: detla: did you mean delta?"):
         tetproof.mesh(POINTS, TRIANGLES, detla=3)
     with pytest.raises(TypeError, match="no such option: colour .there are "):
         tetproof.mesh(POINTS, TRIANGLES, colour=3)
-    with pytest.raises(TypeError, match="`read` makes one"):
-        tetproof.mesh("part.stl")
     with pytest.raises(TypeError):
         tetproof.mesh(POINTS, TRIANGLES + 0.5)
     with pytest.raises(TypeError):
@@ -131,7 +130,7 @@ def test_all_defects_are_arrays():
     assert all(len(error.places[kind]) == error.counts[kind] for kind in error.counts)
     assert error.counts["open edge"] == 3 * count
     pairs = error.places["self-intersection"]
-    assert pairs.dtype == np.uint32 and len(pairs) >= 8 * count
+    assert pairs.dtype == np.int32 and len(pairs) >= 8 * count
     bottoms, inner = pairs[:, 0], pairs[:, 1] - 11 * count
     assert set(bottoms % 11) == {0, 1} and np.array_equal(bottoms // 11, inner // 12)  # the first two triangles are the bottom
 
@@ -369,10 +368,80 @@ def test_files(tmp_path):
     surface = tetproof.read(tmp_path / "cube.stl")
     assert surface.names[1] == "inlet" and set(surface.labels) == set(range(1, 7))
     assert tetproof.mesh(surface).names[1] == "inlet"
-    with pytest.raises(ValueError, match="cannot open"):
-        tetproof.read(tmp_path / "none.stl")
+    for missing in (tetproof.read, tetproof.read_mesh, tetproof.mesh, tetproof.improve):
+        with pytest.raises(FileNotFoundError, match="none.stl"):
+            missing(tmp_path / "none.stl")
+    with pytest.raises(FileNotFoundError, match="folder"):
+        tetproof.write(tmp_path / "folder" / "cube.msh", mesh)
     with pytest.raises(ValueError, match="unknown mesh format"):
         tetproof.write(tmp_path / "cube.doc", mesh)
+
+
+def test_files_are_given_by_name(tmp_path):
+    tetproof.Surface(POINTS, TRIANGLES, LABELS, {1: "inlet", 2: "outlet"}).write(tmp_path / "cube.stl")
+    mesh = tetproof.mesh(str(tmp_path / "cube.stl"))
+    assert mesh.names[1] == "inlet" and tetproof.check(tmp_path / "cube.stl").valid
+    mesh.write(tmp_path / "cube.msh")
+    assert tetproof.improve(tmp_path / "cube.msh").names[2] == "outlet"
+
+
+def test_objects_are_told_in_a_line():
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS)
+    assert repr(mesh) == "Mesh(8 points, 6 tetrahedra, 12 boundary triangles, smallest dihedral angle 45.00 degrees)"
+    assert repr(tetproof.Surface(POINTS, TRIANGLES, LABELS)) == "Surface(8 points, 12 triangles, 6 labels)"
+    plane = tetproof.plane([[0, 0], [1, 0], [0, 1]], [[0, 1], [1, 2], [2, 0]])
+    assert repr(plane) == "PlaneMesh(%d points, %d triangles, %d edges)" % (len(plane.points), len(plane.triangles), len(plane.edges))
+
+
+def test_messages_speak_python():
+    soup = POINTS[TRIANGLES.ravel()] + 1e-7 * np.random.default_rng(1).random((36, 3)), np.arange(36).reshape(12, 3)
+    report = tetproof.check(*soup)
+    hint = next(h for h in report.hints if "nearly coincide" in h)
+    weld = float(re.search(r"`tetproof.repair\(weld=([^)]*)\)`", hint)[1])
+    assert tetproof.check(tetproof.repair(*soup, weld=weld)).valid
+    with pytest.raises(tetproof.InvalidSurface, match="in all open edge: 36, self-intersection: [0-9]+; vertices nearly coincide"):
+        tetproof.mesh(*soup)
+    with pytest.raises(tetproof.LimitReached, match="see max_vertices|max_vertices"):
+        tetproof.mesh(POINTS, TRIANGLES, max_edge=0.1, max_vertices=20)
+
+
+def test_ten_nodes(tmp_path):
+    """The arrays are what write(order=2) writes."""
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS, max_edge=0.5)
+    ten = mesh.ten_nodes()
+    assert np.array_equal(ten.points[:len(mesh.points)], mesh.points) and np.array_equal(ten.tetrahedra[:, :4], mesh.tetrahedra)
+    meshio = pytest.importorskip("meshio")
+    mesh.write(tmp_path / "ten.vtu", order=2)
+    file = meshio.read(tmp_path / "ten.vtu")
+    assert np.array_equal(file.points, ten.points)
+    assert np.array_equal(file.cells_dict["tetra10"], ten.tetrahedra) and np.array_equal(file.cells_dict["triangle6"], ten.boundary)
+    assert np.array_equal(mesh.to_meshio(order=2).cells_dict["tetra10"], ten.tetrahedra)
+
+
+def test_meshio_gets_the_names(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS, max_edge=0.5)
+    mesh.names = {1: "inlet", 2: "inlet"}
+    given = mesh.to_meshio()
+    assert isinstance(given, meshio.Mesh)
+    assert set(given.cell_sets) == {"inside", "inlet", "inlet 2", "label 3", "label 4", "label 5", "label 6"}
+    assert given.field_data["inlet 2"].tolist() == [2, 2] and given.field_data["inside"].tolist() == [1, 3]
+    tetrahedra, triangles = given.cell_sets["inlet"]
+    assert len(tetrahedra) == 0 and np.array_equal(triangles, np.flatnonzero(mesh.labels == 1))
+    assert len(given.cell_sets["inside"][0]) == len(mesh.tetrahedra)
+    given.write(tmp_path / "cube.inp")
+    assert "inlet" in (tmp_path / "cube.inp").read_text()
+
+
+def test_what_a_format_cannot_hold_is_warned_of(tmp_path):
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS)
+    with pytest.warns(UserWarning, match="it has several labels, of which .*cube.off can tell nothing"):
+        mesh.write(tmp_path / "cube.off")
+    mesh.write(tmp_path / "cube.msh", msh="2.2")
+    assert (tmp_path / "cube.msh").read_text().startswith("$MeshFormat\n2.2 0 8\n")
+    assert np.array_equal(np.sort(tetproof.read_mesh(tmp_path / "cube.msh").labels), np.sort(mesh.labels))
+    with pytest.raises(ValueError, match="msh must be"):
+        mesh.write(tmp_path / "cube.msh", msh="3")
 
 
 def test_results_outlive_each_other():

@@ -11,8 +11,10 @@
 import contextlib
 import dataclasses
 import difflib
+import errno
 import inspect
 import os
+import re
 import sys
 import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple, TypeVar, Union
@@ -30,7 +32,7 @@ else:
 
 __version__ = _core.version
 __all__ = ["Defect", "Error", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh",
-           "Repaired", "Report", "Surface", "cdt", "check", "improve", "mesh", "plane", "read", "read_mesh", "repair", "write"]
+           "Repaired", "Report", "Surface", "TenNodes", "cdt", "check", "improve", "mesh", "plane", "read", "read_mesh", "repair", "write"]
 
 #: Called several times a second with the phase, the fraction done (negative: unknown) and the vertices so far; False ends the run.
 Progress = Callable[[str, float, int], Optional[bool]]
@@ -70,6 +72,18 @@ class Defect(NamedTuple):
     triangles: Array
 
 
+class TenNodes(NamedTuple):
+    """Elements of second order: `points`, the mesh's own first; (t, 10) `tetrahedra` and (b, 6) `boundary`, corners first, then nodes
+    in the middle of the edges 01 12 02, of tetrahedra also 03 13 23 (the order of VTK, meshio, Abaqus and Nastran)."""
+    points: Array
+    tetrahedra: Array
+    boundary: Array
+
+
+def _line(name: str, *counts: Tuple[int, str], more: str = "") -> str:
+    return "%s(%s)" % (name, ", ".join(["%d %s" % pair for pair in counts] + ([more] if more else [])))
+
+
 class InvalidSurface(Error, ValueError):
     """The surface is not closed, manifold, oriented and free of self-intersections.
 
@@ -81,11 +95,15 @@ class InvalidSurface(Error, ValueError):
         Described: at most ten of each kind.
     counts : dict of str to int
         How many defects there are of each kind.
-    places : dict of str to (n, 2) uint32
+    places : dict of str to (n, 2) int32
         All of them, as in `Report`.
     """
 
     def __init__(self, message: str, report: "Optional[Report]" = None):
+        if report and len(report.defects) > 1:
+            message += "; in all " + ", ".join("%s: %d" % count for count in report.counts.items())
+        if report and report.hints:
+            message += "; " + report.hints[0]
         super().__init__(message)
         self.report = report
         self.defects = report.defects if report else []
@@ -93,14 +111,14 @@ class InvalidSurface(Error, ValueError):
         self.places = report.places if report else {}
 
 
-@dataclasses.dataclass(eq=False)  # arrays have no one truth to compare by
+@dataclasses.dataclass(eq=False, repr=False)  # arrays have no one truth to compare by
 class Surface:
     """A triangulated surface.
 
     Attributes
     ----------
     points : (n, 3) float64
-    triangles : (m, 3) uint32
+    triangles : (m, 3) int32
         Counter-clockwise seen from outside.
     labels : (m,) int32
     names : dict of int to str
@@ -111,6 +129,10 @@ class Surface:
     labels: Array
     names: Dict[int, str] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
+
+    def __repr__(self) -> str:
+        return _line(type(self).__name__, (len(self.points), "points"), (len(self.triangles), "triangles"),
+                     (len(np.unique(self.labels)), "labels"))
 
     def write(self, path: "Union[str, os.PathLike[str]]") -> None:
         """Write an .stl, .ply or .off, see `write`."""
@@ -138,28 +160,28 @@ class Surface:
         return data
 
 
-@dataclasses.dataclass(eq=False)
+@dataclasses.dataclass(eq=False, repr=False)
 class Repaired(Surface):
     """A mended surface; `done` says what was done to it, a line each."""
     done: List[str] = dataclasses.field(default_factory=list)
 
 
-@dataclasses.dataclass(eq=False)
+@dataclasses.dataclass(eq=False, repr=False)
 class Mesh:
     """A mesh of tetrahedra.
 
     Attributes
     ----------
     points : (n, 3) float64
-    tetrahedra : (t, 4) uint32
+    tetrahedra : (t, 4) int32
         Positively oriented: det(b - a, c - a, d - a) > 0.
     inside : (t,) bool
         In the solid: all of them, unless the region is the hull.
     regions : (t,) int32 or empty
         Of meshes from elsewhere.
-    boundary : (b, 3) uint32
+    boundary : (b, 3) int32
         The triangles that tile the surface, counter-clockwise seen from outside.
-    labels, facets : (b,) int32, (b,) uint32
+    labels, facets : (b,) int32
         The label of the input, and the facet that the triangle is a part of.
     names, region_names : dict of int to str
         What labels, and regions, are called in files.
@@ -179,6 +201,45 @@ class Mesh:
     warnings: List[str] = dataclasses.field(default_factory=list)
     region_names: Dict[int, str] = dataclasses.field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        refined = self.stats.get("final", {})
+        angle = "smallest dihedral angle %.2f degrees" % refined["min_dihedral"] if refined else ""
+        return _line("Mesh", (len(self.points), "points"), (len(self.tetrahedra), "tetrahedra"), (len(self.boundary), "boundary triangles"),
+                     more=angle)
+
+    def _regions(self) -> Array:
+        return self.regions if len(self.regions) else np.where(self.inside, 1, 2).astype(np.int32)
+
+    def _sets(self) -> "Tuple[Dict[str, Tuple[int, int]], Dict[str, List[Array]]]":
+        """By name: number and dimension; the tetrahedra and the boundary triangles of the set."""
+        regions = self._regions()
+        sides = {} if len(self.regions) else {1: "inside", 2: "outside"}
+        numbers: Dict[str, Tuple[int, int]] = {}
+        members: Dict[str, List[Array]] = {}
+        none = np.zeros(0, np.int64)
+        for dimension, values, names, kind in ((3, regions, sides or self.region_names, "region"), (2, self.labels, self.names, "label")):
+            for number in np.unique(values):
+                name = first = names.get(int(number), "%s %d" % (kind, number))
+                while name in numbers:  # programs find sets by their names
+                    name = "%s %d" % (first, int(name[len(first):] or 1) + 1)
+                numbers[name] = (int(number), dimension)
+                found = np.flatnonzero(values == number)
+                members[name] = [found, none] if dimension == 3 else [none, found]
+        return numbers, members
+
+    def ten_nodes(self) -> TenNodes:
+        """The mesh with a node in the middle of every edge, as ``write(order=2)`` has it."""
+        ends = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
+        of_tetrahedra = [np.sort(self.tetrahedra[:, pair], axis=1) for pair in ends]
+        of_boundary = [np.sort(self.boundary[:, pair], axis=1) for pair in ends[:3]]
+        edges, place = np.unique(np.concatenate(of_tetrahedra + of_boundary), axis=0, return_inverse=True)
+        place = place.reshape(-1).astype(np.int32) + np.int32(len(self.points))
+        cut = len(ends) * len(self.tetrahedra)
+        tetrahedra = np.hstack([self.tetrahedra, place[:cut].reshape(len(ends), -1).T])
+        boundary = np.hstack([self.boundary, place[cut:].reshape(3, -1).T])
+        middles = (self.points[edges[:, 0]] + self.points[edges[:, 1]]) / 2
+        return TenNodes(np.vstack([self.points, middles]), tetrahedra, boundary)
+
     def volumes(self) -> Array:
         """The volume of each tetrahedron, in doubles."""
         a, b, c, d = (self.points[self.tetrahedra[:, k]] for k in range(4))
@@ -189,22 +250,37 @@ class Mesh:
         """Write a file, see `write`."""
         write(path, self, order=order, ascii=ascii, msh=msh)
 
-    def to_meshio(self) -> Any:
-        """A `meshio.Mesh` of the tetrahedra and the boundary, with cell data ``label`` and ``inside``."""
+    def to_meshio(self, *, order: int = 1) -> Any:
+        """A `meshio.Mesh` of the tetrahedra and the boundary.
+
+        Cell data ``label``, ``region`` and ``inside``; a cell set for each region and label, by its name, and its number in the
+        field data. With ``order=2`` the elements have ten and six nodes.
+        """
         import meshio
 
-        return meshio.Mesh(self.points, [("tetra", self.tetrahedra.astype(np.int64)), ("triangle", self.boundary.astype(np.int64))],
-                           cell_data={"label": [np.zeros(len(self.tetrahedra), np.int32), self.labels],
-                                      "inside": [self.inside.astype(np.int8), np.full(len(self.labels), -1, np.int8)]})
+        points, tetrahedra, boundary = self.ten_nodes() if order == 2 else (self.points, self.tetrahedra, self.boundary)
+        numbers, members = self._sets()
+        kinds = ("tetra10", "triangle6") if order == 2 else ("tetra", "triangle")
+        return meshio.Mesh(points, [(kinds[0], tetrahedra.astype(np.int64)), (kinds[1], boundary.astype(np.int64))],
+                           cell_data={"label": [np.zeros(len(tetrahedra), np.int32), self.labels],
+                                      "region": [self._regions(), np.zeros(len(boundary), np.int32)],
+                                      "inside": [self.inside.astype(np.int8), np.full(len(self.labels), -1, np.int8)]},
+                           cell_sets=members, field_data={name: np.array(number) for name, number in numbers.items()})
 
     def to_pyvista(self) -> Any:
-        """A `pyvista.UnstructuredGrid` of the tetrahedra."""
+        """A `pyvista.UnstructuredGrid` of the tetrahedra, then the boundary, with cell data ``region`` (0 on triangles) and ``label`` (0 on
+        tetrahedra); names are field data: number and dimension."""
         import pyvista
 
-        return pyvista.UnstructuredGrid({pyvista.CellType.TETRA: self.tetrahedra}, self.points)
+        grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: self.tetrahedra, pyvista.CellType.TRIANGLE: self.boundary}, self.points)
+        grid.cell_data["region"] = np.concatenate([self._regions(), np.zeros(len(self.labels), np.int32)])
+        grid.cell_data["label"] = np.concatenate([np.zeros(len(self.tetrahedra), np.int32), self.labels])
+        for name, number in self._sets()[0].items():
+            grid.field_data[name] = np.array(number)
+        return grid
 
 
-@dataclasses.dataclass(eq=False)
+@dataclasses.dataclass(eq=False, repr=False)
 class PlaneMesh:
     """A mesh of triangles in the plane; `edges` tile the segments, with their `markers` and the numbers of the `segments`."""
     points: Array
@@ -215,6 +291,9 @@ class PlaneMesh:
     segments: Array
     stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
+
+    def __repr__(self) -> str:
+        return _line("PlaneMesh", (len(self.points), "points"), (len(self.triangles), "triangles"), (len(self.edges), "edges"))
 
 
 @dataclasses.dataclass(eq=False)
@@ -230,7 +309,9 @@ class Report:
         Defects by kind: "open edge", "self-intersection", ...
     defects : list of Defect
         Described: at most ten of each kind.
-    places : dict of str to (n, 2) uint32
+    hints : list of str
+        What to do about the defects, as far as that is known.
+    places : dict of str to (n, 2) int32
         All of each kind, up to a million: the two ends of an edge ("open edge", "non-manifold edge", "inconsistent orientation"), two
         triangles ("self-intersection", "duplicate triangle"), a vertex twice ("non-manifold vertex", "non-finite coordinate") or a
         triangle twice ("degenerate triangle", "vertex index out of range").
@@ -254,6 +335,7 @@ class Report:
     volume: float
     bbox_diagonal: float
     smallest_local_feature_size: float
+    hints: List[str] = dataclasses.field(default_factory=list)
 
 
 def _indices(values: Any, name: str) -> Array:
@@ -279,6 +361,29 @@ def _labels(values: Any, name: str = "labels") -> Optional[Array]:
     if array.size and (array.min() < -0x80000000 or array.max() > 0x7fffffff):
         raise ValueError("%s are from -2^31 to 2^31 - 1" % name)
     return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def _read_first(points: Any, triangles: Any) -> Any:
+    """A surface of a file, if that was named."""
+    return read(points) if triangles is None and isinstance(points, (str, os.PathLike)) else points
+
+
+def _signed(value: Any) -> Any:
+    """Numbers of things, of which differences do not wrap around."""
+    if not isinstance(value, np.ndarray) or value.dtype != np.uint32:
+        return value
+    return value.view(np.int32) if value.size == 0 or value.max() < 1 << 31 else value.astype(np.int64)
+
+
+def _in_python(text: str) -> str:
+    """What messages say of the command line, as it is called here."""
+    def call(match: "re.Match[str]") -> str:
+        arguments = ["%s=%s" % (name, value or "True") for name, value in re.findall(r"--([a-z]+)(?: ([^ `-][^ `]*))?", match[2])]
+        return "`tetproof.%s(%s)`" % (match[1], ", ".join(arguments))
+
+    text = re.sub(r"`delmesher (repair|check|improve|plane)([^`]*)`", call, text)
+    outside = re.split(r"(`[^`]*`)", text)  # commands of the harness stay
+    return "".join(part if part.startswith("`") else re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), part) for part in outside)
 
 
 def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Optional[Array]]:
@@ -331,7 +436,7 @@ def _options(job: str, given: Mapping[str, Any]) -> Dict[str, Any]:
 
 
 def _raise(result: Dict[str, Any], report: Callable[[], Optional[Report]] = lambda: None) -> None:
-    status, message = result["status"], result["message"]
+    status, message = result["status"], _in_python(result["message"])
     if status == "ok":
         return
     if status == "invalid_options":
@@ -348,7 +453,8 @@ def _raise(result: Dict[str, Any], report: Callable[[], Optional[Report]] = lamb
 
 
 def _mesh(result: Dict[str, Any], names: Optional[Mapping[int, str]] = None) -> Mesh:
-    fields = {f.name: result[f.name] for f in dataclasses.fields(Mesh) if f.name in result}
+    fields = {f.name: _signed(result[f.name]) for f in dataclasses.fields(Mesh) if f.name in result}
+    fields["warnings"] = [_in_python(line) for line in fields["warnings"]]
     fields["inside"] = fields["inside"].view(np.bool_)
     fields["names"] = dict(names if names is not None else result.get("names", {}))
     return Mesh(**fields)
@@ -360,17 +466,20 @@ class _Bar:
     def __init__(self) -> None:
         self.phase, self.width = "", 0
         self.bar: Any = None
+        self.stream = sys.stdout if "ipykernel" in sys.modules else sys.stderr  # notebooks show stderr in red
         try:
             from tqdm.auto import tqdm  # type: ignore
+
+            # In a notebook without widgets this is what fails.
+            self.bar = tqdm(total=1, bar_format="{desc:<10}{percentage:3.0f}%|{bar}| [{elapsed}<{remaining}{postfix}]")
         except ImportError:
-            return
-        self.bar = tqdm(total=1, bar_format="{desc:<10}{percentage:3.0f}%|{bar}| [{elapsed}<{remaining}{postfix}]")
+            pass
 
     def show(self, phase: str, done: float, vertices: int) -> None:
         if self.bar is None:
             text = phase if done < 0 else "%-9s %3d %%" % (phase, 100 * done)
             text += ", %d points" % vertices if vertices else ""
-            print("\r" + text.ljust(self.width), end="", file=sys.stderr, flush=True)
+            print("\r" + text.ljust(self.width), end="", file=self.stream, flush=True)
             self.width = len(text)
             return
         if phase != self.phase:
@@ -385,7 +494,7 @@ class _Bar:
         if self.bar is not None:
             self.bar.close()
         elif self.width:
-            print(file=sys.stderr)
+            print(file=self.stream)
 
 
 @contextlib.contextmanager
@@ -407,8 +516,8 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
 
     Parameters
     ----------
-    points : (n, 3) array_like of float, or an object with points and triangles
-        A `Surface`, or what trimesh, meshio or pyvista have.
+    points : (n, 3) array_like of float, or an object with points and triangles, or a path
+        A `Surface`, or what trimesh, meshio or pyvista have, or the name of a file that `read` reads.
     triangles : (m, 3) array_like of int
         Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
     labels : (m,) array_like of int, optional
@@ -434,6 +543,7 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
     ValueError, TypeError
         An option or an array makes no sense.
     """
+    points = _read_first(points, triangles)
     arrays = _surface(points, triangles, labels)
     named = _options("mesh", options)
     with _shown(progress) as shown:
@@ -452,6 +562,7 @@ def cdt(points: Any, triangles: Any = None, labels: Any = None, *, progress: Uni
         As in `mesh`.
     **options
     """
+    points = _read_first(points, triangles)
     arrays = _surface(points, triangles, labels)
     named = _options("cdt", options)
     with _shown(progress) as shown:
@@ -480,7 +591,7 @@ def improve(mesh: Any, *, progress: Union[Progress, bool, None] = None, **option
 
     Parameters
     ----------
-    mesh : Mesh, or an object with tetrahedra
+    mesh : Mesh, or an object with tetrahedra, or a path
         What meshio or pyvista have, of which the tetrahedra are taken; their hull is kept.
     progress
         As in `mesh`.
@@ -491,6 +602,7 @@ def improve(mesh: Any, *, progress: Union[Progress, bool, None] = None, **option
     InvalidMesh
         The mesh is not conforming.
     """
+    mesh = read_mesh(mesh) if isinstance(mesh, (str, os.PathLike)) else mesh
     named = _options("improve", options)
     with _shown(progress) as shown:
         result = _core.improve(_fields(_tetrahedra(mesh)), named, shown)
@@ -513,13 +625,15 @@ def check(points: Any, triangles: Any = None, **options: Any) -> Report:
     >>> tetproof.check([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).counts
     {'open edge': 3}
     """
-    arrays = _surface(points, triangles, None)
+    arrays = _surface(_read_first(points, triangles), triangles, None)
     result = _core.check(*arrays[:2], _options("check", options))
     if result["status"] not in ("ok", "invalid_surface"):
         _raise(result)
     fields = {f.name: result[f.name] for f in dataclasses.fields(Report) if f.name in result}
     fields["valid"] = result["status"] == "ok"
-    fields["defects"] = [Defect(*defect) for defect in result["defects"]]
+    fields["hints"] = [_in_python(hint) for hint in result["hints"]]
+    fields["places"] = {kind: _signed(places) for kind, places in result["places"].items()}
+    fields["defects"] = [Defect(kind, text, _signed(vertices), _signed(triangles)) for kind, text, vertices, triangles in result["defects"]]
     return Report(**fields)
 
 
@@ -538,7 +652,9 @@ def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: floa
     """
     if not 0 <= weld < np.inf:
         raise ValueError("weld must be at least 0, and finite")
+    points = _read_first(points, triangles)
     result = _core.repair(*_surface(points, triangles, labels), float(weld), bool(fill))
+    result["triangles"] = _signed(result["triangles"])
     return Repaired(**result, names=dict(getattr(points, "names", {})))
 
 
@@ -562,7 +678,7 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
     with _shown(progress) as shown:
         result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes), named, shown)
     _raise(result)
-    fields = {f.name: result[f.name] for f in dataclasses.fields(PlaneMesh)}
+    fields = {f.name: _signed(result[f.name]) for f in dataclasses.fields(PlaneMesh)}
     fields["inside"] = fields["inside"].view(np.bool_)
     return PlaneMesh(**fields)
 
@@ -570,9 +686,11 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
 def read(path: "Union[str, os.PathLike[str]]") -> Surface:
     """Read a surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, compressed with gzip or not.
 
-    ValueError says what is wrong with the file, and in which line.
+    ValueError says what is wrong with the file, and in which line; FileNotFoundError that there is none.
     """
+    _need_file(path)
     result = _core.read_surface(os.fspath(path))
+    result["triangles"] = _signed(result["triangles"])
     if not len(result["labels"]):
         result["labels"] = np.zeros(len(result["triangles"]), np.int32)
     return Surface(**result)
@@ -583,7 +701,13 @@ def read_mesh(path: "Union[str, os.PathLike[str]]") -> Mesh:
 
     Of elements of second order the corners are read; `warnings` of the mesh say how far off the middle of their edges the other nodes are.
     """
+    _need_file(path)
     return _mesh(_core.read_mesh(os.fspath(path)))
+
+
+def _need_file(path: "Union[str, os.PathLike[str]]") -> None:
+    if os.fspath(path) != "-" and not os.path.exists(path):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(path))
 
 
 def _fields(mesh: Mesh) -> Dict[str, Array]:
@@ -617,6 +741,8 @@ def write(path: "Union[str, os.PathLike[str]]", mesh: Union[Mesh, Surface], name
     if msh not in ("4.1", "2.2"):
         raise ValueError("msh must be '4.1' or '2.2'")
     called = _called(getattr(mesh, "names", {}) if names is None else names)
+    if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.path.dirname(os.fspath(path)))
     if hasattr(mesh, "tetrahedra"):
         lost = _core.write_mesh(os.fspath(path), _fields(mesh), called, _called(mesh.region_names), order, ascii, msh == "2.2")
     elif hasattr(mesh, "triangles"):
@@ -624,4 +750,4 @@ def write(path: "Union[str, os.PathLike[str]]", mesh: Union[Mesh, Surface], name
     else:
         raise TypeError("a mesh or a surface is expected, not %s" % type(mesh).__name__)
     for line in lost:
-        warnings.warn(line, stacklevel=2)
+        warnings.warn(_in_python(line), stacklevel=2)
