@@ -94,13 +94,23 @@ TetId Refiner::created_with(VertexId v) const {
   return kNone;
 }
 
+// Where a split point falls on a vertex, a size field wants lengths whose powers are no doubles.
+void Refiner::check_room(VertexId duplicate, VertexId a, VertexId b) const {
+  if (duplicate == kNone) return;
+  constexpr double kShortest = 1e-50;  // the diagonal is about 1
+  DELMESHER_CHECK(norm(points_.difference(a, b)) < kShortest, "a split point is a vertex");
+  stop_at_precision(duplicate < topology_.vertex_half_edge.size()
+                        ? "vertex " + std::to_string(duplicate)
+                        : "an edge of 1e-50 of the diagonal");
+}
+
 void Refiner::split_subsegment(std::uint32_t s) {
   const VertexId a = subsegments_[s].a;
   const VertexId b = subsegments_[s].b;
   const VertexId v = steiner_.on_segment(subsegments_[s].segment, a, b);
   VertexId duplicate = kNone;
   const TetId start = dt_.locate(v, dt_.incident(a), &duplicate);
-  DELMESHER_CHECK(duplicate == kNone, "the split point of a subsegment coincides with a vertex");
+  check_room(duplicate, a, b);
   ++result_.on_segments;
   find_cavity(v, start);
   if (options_.gabriel) {
@@ -131,7 +141,7 @@ void Refiner::split_subfacet(std::uint32_t s) {
   }
   VertexId duplicate = kNone;
   const TetId start = dt_.locate(v, dt_.incident(subfacets_[container].v[0]), &duplicate);
-  DELMESHER_CHECK(duplicate == kNone, "the split point of a subfacet coincides with a vertex");
+  check_room(duplicate, subfacets_[s].v[0], subfacets_[s].v[1]);
   if (!find_free_cavity(v, start, false)) {
     points_.pop_back();
     subfacets_.queue(s);

@@ -76,6 +76,7 @@ class Refiner {
   void commit(VertexId v);
   void after_insertion();
   TetId created_with(VertexId v) const;
+  void check_room(VertexId duplicate, VertexId a, VertexId b) const;
 
   void validate_links() const;
   void validate_goal() const;
