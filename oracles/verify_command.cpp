@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "oracles/base/box.h"
 #include "oracles/base/heap.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
@@ -193,6 +195,34 @@ std::string verify_improved_quietly(const Arguments& arguments, VerifyReport& re
   return verify_improved(given, mesh, arguments.options, report);
 }
 
+// What to do about a mesh that is wrong in nothing but that its surface is another one; else empty.
+std::string way_on(const Arguments& arguments, const VerifyReport& report) {
+  if (report.verdict != Verdict::broken || arguments.envelope > 0 || !arguments.exact.empty()) {
+    return {};
+  }
+  for (const OracleReport& oracle : report.oracles) {
+    if (oracle.passed()) continue;
+    const bool of_surface =
+        oracle.name == "conformity" || oracle.name == "volume" || oracle.name == "boundary-list";
+    if (!of_surface) return {};
+  }
+  const Polyhedron input = read_surface(arguments.input);
+  const Polyhedron own = boundary_of(read_mesh(arguments.mesh));
+  if (own.triangles.empty()) return {};
+  const double diagonal = box_of(input.vertices).diagonal(), precision = 1e-6 * diagonal;
+  const double far =
+      std::max(farthest(input, own, precision, 0), farthest(own, input, precision, 0));
+  // Of one digit, and above both: what the envelope's own bounds add is less than a tenth.
+  char share[32];
+  std::snprintf(share, sizeof share, "%.0e", 1.6 * std::max(far / diagonal, kLeastEnvelope));
+  if (std::strtod(share, nullptr) > 1) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the surface is another one, up to %.2g away: --envelope %s judges such a mesh\n",
+                far, share);
+  return text;
+}
+
 int verify_files(const Arguments& arguments) {
   VerifyReport report;
   const Task task = arguments.options.promised.task;
@@ -204,6 +234,9 @@ int verify_files(const Arguments& arguments) {
     return kInvalid;
   }
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
+  if (!arguments.json && (task == Task::mesh || task == Task::cdt)) {
+    std::fputs(way_on(arguments, report).c_str(), stdout);
+  }
   const bool bad = arguments.envelope > 0 ? report.verdict == Verdict::broken
                                           : failed(report, arguments.options);
   const int code = bad ? kFailed : report.verdict == Verdict::undecided ? kLimit : kDone;

@@ -450,7 +450,10 @@ int main(int argc, char** argv) {
 #endif
     // So does the script that it is.
     if (argc > 1 && std::strcmp(argv[1], "bisect") == 0) return tetproof::bisect_command(argv + 1);
-    return tetproof::parse_and_run(argc, argv);
+    std::vector<char*> words(argv, argv + argc);
+    char help[] = "--help";
+    if (argc == 1) words.push_back(help);
+    return tetproof::parse_and_run(static_cast<int>(words.size()), words.data());
   } catch (const tetproof::UsageError& error) {
     std::fprintf(stderr, "tetproof: %s\n", error.what());
     return 2;

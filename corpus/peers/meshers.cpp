@@ -349,6 +349,13 @@ Mesher make_mesher(const std::string& text, const MesherPrograms& programs) {
   const auto equals = text.find('=');
   if (equals != std::string::npos && equals > 0) {
     const std::string name = text.substr(0, equals), rest = text.substr(equals + 1);
+    // Its rows would be taken for those of the mesher that is known by it.
+    const std::vector<std::string> known = mesher_names();
+    if (std::find(known.begin(), known.end(), name) != known.end() ||
+        name.starts_with("delmesher+")) {
+      throw std::runtime_error(name +
+                               " is a mesher that is known by name: call this one otherwise");
+    }
     if (is_command(rest)) return command_mesher(name, rest);
     if (rest.starts_with("delmesher:")) return own_mesher(name, rest.substr(10), programs);
   }
