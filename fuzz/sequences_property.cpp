@@ -81,7 +81,7 @@ auto counters(const delmesher::Statistics& s) {
                   s.steiner_on_segments, s.steiner_on_facets, s.steiner_in_volume,
                   s.predicate_filter, s.predicate_extended, s.predicate_fixed, s.predicate_exact,
                   s.predicate_symbolic, s.predicate_by_support, s.predicted_tetrahedra,
-                  s.guard_stops, s.cdt_restarts);
+                  s.ladder.times, s.cdt_restarts);
 }
 
 // What differs between two answers to one call; empty if nothing does.

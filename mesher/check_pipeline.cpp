@@ -38,11 +38,12 @@ SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
     s.diagonal = report.bbox_diagonal;
     const auto [stand_in, bound] = enter_surface(surface, validity, Planes::to_the_end, s);
     report.planar_bound = bound;
-    report.planar_facets = s.topology.facet_triangles.size();
+    report.planar_facets = s.surface.topology().facet_triangles.size();
     report.facets = stand_in.planes.empty() ? report.planar_facets : stand_in.given_facets;
-    report.smallest_local_feature_size = smallest_local_feature_size(s.topology, s.points, control);
-    const chamfer::AcuteCount acute =
-        chamfer::count_acute(s.topology, s.points, s.predicates, chamfer_options(options), control);
+    report.smallest_local_feature_size =
+        smallest_local_feature_size(s.surface.topology(), s.points, control);
+    const chamfer::AcuteCount acute = chamfer::count_acute(
+        s.surface.topology(), s.points, s.predicates, chamfer_options(options), control);
     report.acute_vertices = acute.vertices;
     report.acute_edges = acute.edges;
     return {};

@@ -1,8 +1,10 @@
 // The order of the stages: Algorithm 2 of the paper, and the policies that repeat parts of it.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "mesher/base/climb.h"
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/cdt/cdt.h"
@@ -16,8 +18,8 @@
 #include "mesher/policies/as_given.h"
 #include "mesher/policies/budget.h"
 #include "mesher/policies/fallback.h"
-#include "mesher/policies/finer_planes.h"
 #include "mesher/policies/plain.h"
+#include "mesher/policies/planar_runs.h"
 #include "mesher/policies/planes.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
@@ -67,7 +69,8 @@ chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferO
                                 .all_pairs = s.options.as_paper.filter_pairs,
                                 .both_sides = s.options.as_paper.filter_chamfered};
   if (filter.both_sides) filter.chamfered_fraction = 1;
-  chamfer::FilteredSurface surface(s.topology, s.points, s.predicates, options, filter, s.control);
+  chamfer::FilteredSurface surface(s.surface.topology(), s.points, s.predicates, options, filter,
+                                   s.control);
   s.control.enter(Phase::filter);
   surface.drop_close();
   do {
@@ -79,20 +82,9 @@ chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferO
   return surface.result();
 }
 
-// With so large a tolerance of the filter that the mesh is predicted to keep to the budget.
-chamfer::ChamferedSurface filter_to_budget(Budget& budget, const Fallback& fallback, Session& s,
-                                           Recorder& recorder) {
-  chamfer::ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-  while (budget.raise_tau_over_budget(chamfered, s, recorder)) {
-    s.points.truncate(s.input_vertices());
-    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-  }
-  return chamfered;
-}
-
 refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double tau,
                                  Fallback& fallback, Session& s) {
-  refine::add_outer_box(s.topology, s.points, chamfered.chamfer.plc, s.frame);
+  refine::add_outer_box(s.surface.topology(), s.points, chamfered.chamfer.plc, s.frame);
   refine::RefineOptions options;
   options.delta = s.options.delta;
   options.slivers = s.options.slivers;
@@ -106,20 +98,85 @@ refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double ta
   options.gabriel = fallback.gabriel();
   options.apex = chamfered.chamfer.vertex_is_apex;
   options.on_step = [&s](refine::RefineStep step) { s.control.enter(phase_of(step)); };
-  options.removed =
-      chamfer::removed_boxes(chamfered.chamfer, chamfered.filter.facet_kept, s.topology, s.points);
-  return refine::refine(chamfered.chamfer.plc, s.topology, s.points, s.predicates, options,
-                        s.control);
+  options.removed = chamfer::removed_boxes(chamfered.chamfer, chamfered.filter.facet_kept,
+                                           s.surface.topology(), s.points);
+  return refine::refine(chamfered.chamfer.plc, s.surface.topology(), s.points, s.predicates,
+                        options, s.control);
 }
+
+// The refined mesh, and what the surface is for it.
+struct Refinement {
+  Session& s;
+  Recorder& recorder;
+  Budget budget{s.options};
+  Fallback fallback{s.options};
+  chamfer::ChamferedSurface chamfered{};
+  refine::RefineResult refined{};
+
+  void filter() {
+    s.points.truncate(s.input_vertices());
+    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+  }
+  void refine() { refined = refine_mesh(chamfered, budget.tau(), fallback, s); }
+  void refine_anew() {
+    filter();
+    refine();
+  }
+};
+
+// With so large a tolerance of the filter that the mesh is predicted to keep to the budget.
+struct Filtering {
+  Refinement& r;
+
+  void attempt() {
+    r.filter();
+    r.budget.predict(r.chamfered, r.s, r.recorder);
+  }
+  bool good_enough() const { return r.budget.is_kept(); }
+};
+
+constexpr Step<Filtering> kFiltering[] = {
+    {Rung::larger_tau, [](const Filtering& f) { return f.r.budget.can_double_tau(); },
+     [](Filtering& f) {
+       f.r.budget.double_tau();
+       f.attempt();
+     }},
+};
+
+// The guard has stopped a refinement that would not end.
+struct Guarded {
+  Refinement& r;
+
+  bool good_enough() const { return !r.refined.runaway; }
+};
+
+constexpr Step<Guarded> kGuard[] = {
+    {Rung::empty_balls, [](const Guarded& g) { return !g.r.fallback.gabriel(); },
+     [](Guarded& g) {
+       g.r.fallback.empty_balls();
+       g.r.refine_anew();
+     }},
+    {Rung::chamfers_nearby, [](const Guarded& g) { return g.r.fallback.can_tighten_nearby(); },
+     [](Guarded& g) {
+       g.r.fallback.tighten_nearby(*g.r.refined.runaway, g.r.s);
+       g.r.refine_anew();
+     }},
+    {Rung::chamfers_everywhere,
+     [](const Guarded& g) { return !g.r.fallback.is_tight_everywhere(); },
+     [](Guarded& g) {
+       g.r.fallback.tighten_everywhere();
+       g.r.refine_anew();
+     }},
+};
 
 // Gives up the refined mesh, because the last step needs its memory.
 cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
                             refine::RefineResult refined, Session& s) {
   s.control.enter(Phase::enrich);
   std::unique_ptr<Tetrahedrization> delaunay = std::move(refined.delaunay);
-  cdt::CdtInput input =
-      enrich::enriched_input(chamfered.chamfer, chamfered.filter.facet_kept, refined, s.topology,
-                             s.points, s.predicates, s.options.as_paper.kept_points, s.control);
+  cdt::CdtInput input = enrich::enriched_input(
+      chamfered.chamfer, chamfered.filter.facet_kept, refined, s.surface.topology(), s.points,
+      s.predicates, s.options.as_paper.kept_points, s.control);
   refined = {};
   input.on_step = [&s](cdt::CdtStep step) {
     s.control.enter(step == cdt::CdtStep::classify ? Phase::classify : Phase::enrich);
@@ -141,8 +198,9 @@ improve::ImproveResult improve_final(ConformingMesh& mesh, Session& s,
                                      const improve::Sparing& sparing = {}) {
   improve::ImproveOptions options = improve_options(s.options.region, s);
   options.sparing = sparing;
-  improve::ImproveResult result = improve::improve(std::move(mesh), &s.topology, s.given, options,
-                                                   s.points, s.predicates, s.control);
+  improve::ImproveResult result =
+      improve::improve(std::move(mesh), &s.surface.topology(), s.surface.given_vertices(), options,
+                       s.points, s.predicates, s.control);
   mesh = std::move(result.mesh);
   return result;
 }
@@ -153,50 +211,38 @@ void improve_as_given(std::size_t before, const std::vector<std::uint8_t>& is_fl
                       ConformingMesh& mesh, Session& s, Recorder& recorder) {
   std::vector<std::uint8_t> returned = is_flat;  // on the stand-in
   for (std::size_t e = 0; e < returned.size(); ++e) {
-    if (s.topology.edge_is_flat[e] != 0) returned[e] = 0;
+    if (s.surface.topology().edge_is_flat[e] != 0) returned[e] = 0;
   }
   recorder.spared(improve_final(mesh, s, {returned, before + before / 10}).spared);
 }
 
-// From the stand-in to the surface as given, with all its edges: by local operations, or, where
-// these do not get there, by another tetrahedrization with the same vertices. False if that cannot
-// be; the mesh is not to be used then.
-bool put_back(ConformingMesh& mesh, Session& s, Recorder& recorder) {
-  const ConformingMesh before = mesh;
-  const std::size_t points = s.points.size();
+// From the stand-in to the surface as given, with all its edges, by local operations.
+Status put_back(ConformingMesh& mesh, Session& s, Recorder& recorder) {
   SurfaceTopology as_given = topology_as_given(s);
-  improve::DiagonalsResult entered =
-      improve::enter_diagonals(std::move(mesh), s.topology, as_given, s.given,
-                               improve_options(Region::hull, s), s.points, s.predicates, s.control);
+  improve::DiagonalsResult entered = improve::enter_diagonals(
+      std::move(mesh), s.surface.topology(), as_given, s.surface.given_vertices(),
+      improve_options(Region::hull, s), s.points, s.predicates, s.control);
   mesh = std::move(entered.mesh);
   recorder.put_back(entered.diagonals, entered.missing);
-  if (entered.missing == 0 && go_back(mesh, std::move(as_given), s)) return true;
-  if (s.bounds_edges()) {  // another tetrahedrization may have longer edges
-    recorder.given_up();
-    return false;
-  }
-  s.points.truncate(points);
-  mesh = tetrahedrize_as_given(before, s).mesh;
-  if (s.options.region == Region::interior) keep_inside(mesh);
-  recorder.tetrahedrized_anew();
-  return true;
+  if (entered.missing == 0 && go_back(mesh, std::move(as_given), s)) return {};
+  recorder.no_way_back();
+  return {StatusCode::limit_reached, "the mesh found no way back from planar facets",
+          Limit::precision};
 }
 
 // Improves the final mesh; a mesh of the stand-in that goes back is improved before and after.
-// False if it cannot go back.
-bool improve_and_go_back(Planes planes, ConformingMesh& mesh, Session& s, Recorder& recorder) {
-  const bool goes_back = planes == Planes::while_refined && !s.given.empty();
-  // What is outside takes time, and is in the way: of a stand-in, there are flat tetrahedra between
-  // facets that are nearly in one plane.
+Status improve_and_go_back(Planes planes, ConformingMesh& mesh, Session& s, Recorder& recorder) {
+  // Drop outside tetrahedra first: they cost time, and between facets that are nearly in one plane
+  // there are flat ones that block operations.
   if (s.options.region == Region::interior) keep_inside(mesh);
   if (improve_final(mesh, s).changed) recorder.improved(mesh);
-  if (!goes_back) return true;
+  if (planes != Planes::while_refined || !s.surface.is_planarized()) return {};
   const std::size_t before = mesh.tetrahedra.size();
-  const std::vector<std::uint8_t> is_flat = s.topology.edge_is_flat;
-  if (!put_back(mesh, s, recorder)) return false;
+  const std::vector<std::uint8_t> is_flat = s.surface.topology().edge_is_flat;
+  if (Status status = put_back(mesh, s, recorder); !status.ok()) return status;
   improve_as_given(before, is_flat, mesh, s, recorder);
   recorder.improved(mesh);
-  return true;
+  return {};
 }
 
 void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineResult refined,
@@ -212,17 +258,18 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
 Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& recorder) {
   if (Status status = prepare(surface, planes, s, recorder); !status.ok()) return status;
 
-  Budget budget(s.options);
-  Fallback fallback(s.options);
-  chamfer::ChamferedSurface chamfered = filter_to_budget(budget, fallback, s, recorder);
-  refine::RefineResult refined = refine_mesh(chamfered, budget.tau(), fallback, s);
-  while (refined.runaway) {
-    fallback.tighten(*refined.runaway, s);
-    s.points.truncate(s.input_vertices());
-    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-    refined = refine_mesh(chamfered, budget.tau(), fallback, s);
-  }
-  recorder.chamfered(chamfered.chamfer, chamfered.filter, fallback.in_force(budget.tau()));
+  Refinement refinement{s, recorder};
+  Filtering filtering{refinement};
+  filtering.attempt();
+  climb(filtering, kFiltering, recorder.ladder());
+  refinement.budget.settle(s);
+  refinement.refine();
+  Guarded guard{refinement};
+  climb(guard, kGuard, recorder.ladder());
+  const chamfer::ChamferedSurface& chamfered = refinement.chamfered;
+  refine::RefineResult& refined = refinement.refined;
+  recorder.chamfered(chamfered.chamfer, chamfered.filter,
+                     refinement.fallback.in_force(refinement.budget.tau()));
   recorder.refined(chamfered.chamfer, refined);
   if (s.options.approximate) {
     write_refined(chamfered, std::move(refined), s, recorder);
@@ -238,27 +285,19 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
   recorder.tetrahedrized(cdt);
   if (s.options.improve) {
     s.control.enter(Phase::improve);
-    // Without a mesh: run_mesh has to run once more, without a stand-in.
-    if (!improve_and_go_back(planes, cdt.mesh, s, recorder)) return {};
+    if (Status status = improve_and_go_back(planes, cdt.mesh, s, recorder); !status.ok()) {
+      return status;
+    }
   }
   s.control.enter(Phase::round);
   round_and_record(std::move(cdt.mesh), s, recorder);
   return {};
 }
 
-Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
-  return mesh_with(goes_back(s.options) ? Planes::while_refined : Planes::to_the_end, surface, s,
-                   recorder);
-}
-
-Status mesh_directly(const Surface& surface, Session& s, Recorder& recorder) {
-  return mesh_with(Planes::none, surface, s, recorder);
-}
-
 // Without refinement: the surface alone.
 Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
   if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
-  cdt::CdtInput input = enrich::plain_input(s.topology);
+  cdt::CdtInput input = enrich::plain_input(s.surface.topology());
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
   cdt::CdtResult cdt =
       cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
@@ -268,10 +307,9 @@ Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
   return {};
 }
 
-using Pipeline = Status (*)(const Surface&, Session&, Recorder&);
+using Pipeline = std::function<Status(Session&, Recorder&)>;
 
-Result run(Pipeline pipeline, const Surface& surface, const Options& options,
-           const LocalFrame& frame) {
+Result run(const Pipeline& pipeline, const Options& options, const LocalFrame& frame) {
   Result result;
   Control control(options);
   Session session(options, control, frame);
@@ -281,24 +319,48 @@ Result run(Pipeline pipeline, const Surface& surface, const Options& options,
       return {StatusCode::invalid_options, defect};
     }
     session.sizes = SizeField(options.size_field, options.size_growth);
-    return pipeline(surface, session, recorder);
+    return pipeline(session, recorder);
   });
   recorder.finish();
   return result;
 }
 
-Result run_mesh(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  FinerPlanes planes(options);
-  Result best = run(mesh, surface, options, frame);
-  while (planes.plan_run_after(best)) {
-    FinerPlanes::keep_better(
-        run(planes.directly() ? mesh_directly : mesh, surface, planes.options(), frame), best);
+// Whole runs; the best counts.
+struct Runs {
+  const Surface& surface;
+  const LocalFrame& frame;
+  PlanarRuns planes;
+  Result best;
+
+  bool good_enough() const { return PlanarRuns::good_enough(best); }
+
+  Result run_with(Planes how, const Options& options) const {
+    return run([&](Session& s, Recorder& recorder) { return mesh_with(how, surface, s, recorder); },
+               options, frame);
   }
-  return best;
+  void run_again(Planes how) { PlanarRuns::keep_better(run_with(how, planes.options()), best); }
+};
+
+constexpr Step<Runs> kRuns[] = {
+    {Rung::back_to_given, [](const Runs& r) { return r.planes.applies(Rung::back_to_given); },
+     [](Runs& r) { r.run_again(Planes::while_refined); }},
+    {Rung::no_planes, [](const Runs& r) { return r.planes.applies(Rung::no_planes); },
+     [](Runs& r) { r.run_again(Planes::none); }},
+};
+
+Result run_mesh(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  Runs runs{surface, frame, PlanarRuns(options), {}};
+  runs.best =
+      runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
+  RungCounts taken;
+  climb(runs, kRuns, taken);
+  runs.best.statistics.ladder += taken;
+  return std::move(runs.best);
 }
 
 Result run_plain_cdt(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  return run(plain_cdt, surface, options, frame);
+  return run([&](Session& s, Recorder& recorder) { return plain_cdt(surface, s, recorder); },
+             options, frame);
 }
 
 }  // namespace

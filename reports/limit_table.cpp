@@ -1,4 +1,6 @@
-// Limits that our mesher set itself, by its own statistics.
+// Limits that our mesher set itself, and what it did where an attempt was not good enough, by its
+// own statistics.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "reports/measures.h"
@@ -7,27 +9,47 @@
 namespace tetproof {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Struck {
-  std::uint64_t runs = 0, guard = 0, stops = 0, corners = 0, everywhere = 0;
-  std::uint64_t capped = 0, restarts = 0, thinned = 0;
+  std::uint64_t runs = 0, corners = 0, everywhere = 0, capped = 0, restarts = 0, thinned = 0;
 };
 
-void add(const std::string& text, Struck& struck) {
-  const auto stats = nlohmann::json::parse(text, nullptr, false);
+std::uint64_t count(const Json& from, const char* name) {
+  return from.value(name, std::uint64_t{0});
+}
+
+void add(const Json& stats, Struck& struck) {
   if (!stats.is_object() || !stats.contains("limits") || !stats.contains("guarantee")) return;
   const auto& limits = stats["limits"];
   const auto& guarantee = stats["guarantee"];
-  const auto count = [](const nlohmann::json& from, const char* name) {
-    return from.value(name, std::uint64_t{0});
-  };
   ++struck.runs;
-  struck.guard += count(limits, "guard_stops") > 0;
-  struck.stops += count(limits, "guard_stops");
   struck.corners += count(guarantee, "fallback_corners");
   struck.everywhere += guarantee.value("acute", 0.0) > stats["parameters"].value("acute", 90.0);
   struck.capped += limits.value("refinement_capped", false);
   struck.restarts += count(limits, "cdt_restarts");
   struck.thinned += count(limits, "thinned");
+}
+
+// Rungs in the order of the statistics.
+struct Rung {
+  std::string name;
+  std::uint64_t runs = 0, times = 0;
+};
+
+void add(const Json& stats, std::vector<Rung>& rungs) {
+  if (!stats.is_object() || !stats.contains("ladder")) return;
+  for (const auto& [name, value] : stats["ladder"].items()) {
+    const auto times = value.get<std::uint64_t>();
+    auto rung = std::ranges::find(rungs, name, &Rung::name);
+    if (rung == rungs.end()) rung = rungs.insert(rung, {name});
+    rung->runs += times > 0;
+    rung->times += times;
+  }
+}
+
+Json stats_of(const RunRow& row) {
+  return Json::parse(row.stats_json, nullptr, false);
 }
 
 }  // namespace
@@ -36,23 +58,44 @@ Table limit_table(const Selection& selection) {
   Table table;
   table.name = "limits";
   table.title = "Limits that the mesher set itself";
-  table.header = {"Mesher",        "Runs",   "Guard acted",  "Times",         "Corners tightened",
-                  "All tightened", "Capped", "CDT restarts", "Points thinned"};
+  table.header = {"Mesher", "Runs",         "Corners tightened", "All tightened",
+                  "Capped", "CDT restarts", "Points thinned"};
   for (const std::string& mesher : selection.meshers) {
     Struck s;
-    for (const RunRow* row : selection.ok_runs(mesher)) add(row->stats_json, s);
+    for (const RunRow* row : selection.ok_runs(mesher)) add(stats_of(*row), s);
     if (s.runs == 0) continue;
     table.rows.push_back({mesher});
     for (const std::uint64_t n :
-         {s.runs, s.guard, s.stops, s.corners, s.everywhere, s.capped, s.restarts, s.thinned}) {
+         {s.runs, s.corners, s.everywhere, s.capped, s.restarts, s.thinned}) {
       table.rows.back().push_back(std::to_string(n));
     }
   }
   table.notes = {
-      "Of the successful runs, by the mesher's own statistics. The guard begins a refinement that "
-      "would not end anew, stricter; \"capped\" are runs that gave up slivers, or angles above the "
+      "Of the successful runs, by the mesher's own statistics. Corners are tightened where the "
+      "refinement would not end; \"capped\" are runs that gave up slivers, or angles above the "
       "guaranteed ones, at four times the points; points are thinned where doubles are too coarse "
       "for them."};
+  return table;
+}
+
+Table ladder_table(const Selection& selection) {
+  Table table;
+  table.name = "ladder";
+  table.title = "What the mesher did where an attempt was not good enough";
+  table.header = {"Mesher", "Runs", "Rung", "Taken by", "Times"};
+  for (const std::string& mesher : selection.meshers) {
+    std::vector<Rung> rungs;
+    const std::vector<const RunRow*> runs = selection.ok_runs(mesher);
+    for (const RunRow* row : runs) add(stats_of(*row), rungs);
+    for (const Rung& rung : rungs) {
+      if (rung.times == 0) continue;
+      table.rows.push_back({mesher, std::to_string(runs.size()), rung.name,
+                            std::to_string(rung.runs), std::to_string(rung.times)});
+    }
+  }
+  table.notes = {
+      "Of the successful runs, by the mesher's own statistics (\"ladder\"), in the order in which "
+      "rungs are taken; those that no run took are left out."};
   return table;
 }
 

@@ -106,7 +106,7 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
              joined(angle_charts(selection, ""), gamma_charts(selection))));
   add("success", "Success", "How the runs ended, and what the oracles found in the files.",
       {disposition_table(selection), oracle_table(selection), failure_group_table(selection),
-       limit_table(selection)},
+       limit_table(selection), ladder_table(selection)},
       {disposition_chart(selection)});
   add("speed", "Time and memory", "",
       {speed_table(selection), time_table(selection), phase_table(selection)},

@@ -50,9 +50,13 @@ Table vary_changes_table(const Selection& selection);
 // paper's preset (tetproof run --ablation). No rows without the default or without such departures.
 Table deviation_table(const Selection& selection);
 
-// How often the limits that our mesher sets itself struck: the guard, the cap on slivers, restarts
-// of the constrained tetrahedrization, points taken out again. No rows without statistics of them.
+// How often the limits that our mesher sets itself struck: corners tightened by the guard, the cap
+// on slivers, restarts of the constrained tetrahedrization, points taken out again. No rows without
+// statistics of them.
 Table limit_table(const Selection& selection);
+
+// How often our mesher took the rungs of its ladder. No rows if it took none.
+Table ladder_table(const Selection& selection);
 
 // How long runs took, in the paper's classes and shorter ones.
 Table time_table(const Selection& selection);

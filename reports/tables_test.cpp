@@ -303,11 +303,14 @@ TEST(Tables, DeviationsStandBesideTheDefault) {
 TEST(Tables, LimitsThatStruckAreCounted) {
   Selection selection = campaign();
   EXPECT_FALSE(has_data(limit_table(selection)));
+  EXPECT_FALSE(has_data(ladder_table(selection)));
   const auto stats = [](int stops, int corners, double acute, const char* capped) {
     return R"({"parameters": {"acute": 60}, "guarantee": {"acute": )" + std::to_string(acute) +
            R"(, "fallback_corners": )" + std::to_string(corners) +
-           R"(}, "limits": {"guard_stops": )" + std::to_string(stops) +
-           R"(, "refinement_capped": )" + capped + R"(, "cdt_restarts": 2, "thinned": 5}})";
+           R"(}, "ladder": {"empty_balls": )" + std::to_string(stops > 0 ? 1 : 0) +
+           R"(, "chamfers_nearby": )" + std::to_string(stops) +
+           R"(, "untangle": 0}, "limits": {"refinement_capped": )" + capped +
+           R"(, "cdt_restarts": 2, "thinned": 5}})";
   };
   auto& runs = selection.runs.at("safe-delmesher-e4");
   runs.at("hash-a").stats_json = stats(3, 7, 60, "false");
@@ -315,8 +318,12 @@ TEST(Tables, LimitsThatStruckAreCounted) {
   runs.at("hash-c").stats_json = stats(0, 0, 60, "false");
   const Table table = limit_table(selection);
   ASSERT_EQ(table.rows.size(), 1U);
-  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"safe-delmesher-e4", "3", "2", "36", "7", "1",
-                                                     "1", "6", "15"}));
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"safe-delmesher-e4", "3", "7", "1", "1", "6", "15"}));
+  const std::vector<std::vector<std::string>> taken = {
+      {"safe-delmesher-e4", "3", "empty_balls", "2", "2"},
+      {"safe-delmesher-e4", "3", "chamfers_nearby", "2", "36"}};
+  EXPECT_EQ(ladder_table(selection).rows, taken);
 }
 
 // A copy that ended in another way than its model is a change of mind, whichever of them is ok.

@@ -173,7 +173,6 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"diagonals", s.diagonals},
                     {"diagonals_missing", s.diagonals_missing},
                     {"spared", s.diagonals_spared},
-                    {"anew", s.planar_anew},
                     {"given_up", s.planar_given_up},
                     {"limit", limit_name(s.planar_limit)}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
@@ -183,8 +182,10 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                        {"corner", s.guaranteed_corner},
                        {"gabriel", s.gabriel},
                        {"fallback_corners", s.fallback_corners}};
-  json["limits"] = {{"guard_stops", s.guard_stops},
-                    {"refinement_capped", s.refinement_capped},
+  for (std::size_t i = 0; i < kRungCount; ++i) {
+    json["ladder"][kLadder[i].name] = s.ladder.times[i];
+  }
+  json["limits"] = {{"refinement_capped", s.refinement_capped},
                     {"cdt_restarts", s.cdt_restarts},
                     {"thinned", s.rounding_thinned}};
   json["steiner"] = {{"on_segments", s.steiner_on_segments},
@@ -245,23 +246,21 @@ std::string planar_text(const std::string& file, const Statistics& s, bool as_gi
 
 std::vector<std::string> limits_texts(const Statistics& s) {
   std::vector<std::string> texts;
-  if (s.guard_stops > 0) {
+  const std::uint64_t guard_stops = s.ladder[Rung::empty_balls] + s.ladder[Rung::chamfers_nearby] +
+                                    s.ladder[Rung::chamfers_everywhere];
+  if (guard_stops > 0) {
     const std::string corners =
         s.guaranteed_acute >= 90 ? "all corners" : std::to_string(s.fallback_corners) + " corners";
-    texts.push_back("the refinement would not end: begun anew " + std::to_string(s.guard_stops) +
+    texts.push_back("the refinement would not end: begun anew " + std::to_string(guard_stops) +
                     " times, at last with empty balls and chamfers up to 90 degrees at " + corners);
   }
-  if (s.planar_anew) {
+  if (s.planar_given_up) {
     const std::string why = s.diagonals_missing == 0
                                 ? "tetrahedra did not fit the surface as given"
                                 : std::to_string(s.diagonals_missing) + " of " +
                                       std::to_string(s.diagonals) +
                                       " edges within planar facets found no place";
-    texts.push_back(why + ": tetrahedrized anew, with the vertices that there were");
-  }
-  if (s.planar_given_up) {
-    texts.push_back(std::to_string(s.diagonals_missing) + " of " + std::to_string(s.diagonals) +
-                    " edges within planar facets did not come back: meshed anew without those");
+    texts.push_back(why + ": meshed anew without those facets");
   }
   if (s.planar_limit != Limit::none) {
     texts.push_back("meshed anew with facets less planar, which ended at the limit of " +

@@ -76,7 +76,7 @@ TEST(Reports, DefectsAreCountedInWords) {
 TEST(Reports, LimitsThatStruckHaveALineEach) {
   EXPECT_TRUE(limits_texts({}).empty());
   Statistics s;
-  s.guard_stops = 2;
+  s.ladder[Rung::empty_balls] = s.ladder[Rung::chamfers_nearby] = 1;
   s.fallback_corners = 5;
   s.guaranteed_acute = 60;
   s.refinement_capped = true;
@@ -94,7 +94,7 @@ TEST(Reports, LimitsThatStruckHaveALineEach) {
 TEST(Reports, WhatDoesNotGoBackByLocalOperationsIsTold) {
   Statistics s;
   s.diagonals = 9;
-  s.planar_anew = true;
+  s.planar_given_up = true;
   ASSERT_EQ(limits_texts(s).size(), 1U);
   EXPECT_NE(limits_texts(s)[0].find("did not fit"), std::string::npos);
   s.diagonals_missing = 2;
@@ -261,7 +261,8 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
-      "final planar filter prediction chamfer guarantee limits steiner rounding predicates ");
+      "final planar filter prediction chamfer guarantee ladder limits steiner rounding "
+      "predicates ");
   EXPECT_EQ(keys(json["predicates"]), "filter support extended fixed exact symbolic ");
   EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
   EXPECT_EQ(keys(json["phases_seconds"]),
@@ -276,14 +277,18 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["refined"]), mesh);
   EXPECT_EQ(keys(json["final"]), mesh);
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
-  EXPECT_EQ(keys(json["planar"]),
-            "facets groups given_facets bound deviation diagonals diagonals_missing spared anew "
-            "given_up limit ");
+  EXPECT_EQ(
+      keys(json["planar"]),
+      "facets groups given_facets bound deviation diagonals diagonals_missing spared given_up "
+      "limit ");
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
   EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
-  EXPECT_EQ(keys(json["limits"]), "guard_stops refinement_capped cdt_restarts thinned ");
+  EXPECT_EQ(keys(json["ladder"]),
+            "larger_tau empty_balls chamfers_nearby chamfers_everywhere other_orders "
+            "untangle thin_out input_alone all_repairs back_to_given no_planes ");
+  EXPECT_EQ(keys(json["limits"]), "refinement_capped cdt_restarts thinned ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
   EXPECT_EQ(keys(json["rounding"]),
             "inverted flat repaired inexact signs thinned max_surface_deviation ");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "ladder.h"
 #include "run.h"
 
 namespace delmesher {
@@ -42,16 +43,15 @@ struct Statistics {
   // the plane of a facet, and the bound on it.
   double planar_deviation = 0, planar_bound = 0;
   // With Options::planar 0 the facets are planar only while they are refined: edges of the surface
-  // as given within them, which come back afterwards; how many found no place by local operations;
-  // and what was done for that, or because the mesh did not fit the surface as given: that surface
-  // was tetrahedrized again with the same vertices, or the run was repeated without planar
+  // as given within them, which come back afterwards; how many found no place; and whether for
+  // that, or because the mesh did not fit the surface as given, it was meshed anew without planar
   // facets.
   std::uint64_t diagonals = 0, diagonals_missing = 0;
   std::uint64_t diagonals_spared = 0;  // points on them that went for fewer tetrahedra
-  bool planar_anew = false, planar_given_up = false;
+  bool planar_given_up = false;
   // Where planar facets left the mesh with inverted or flat tetrahedra: the limit that ended a run
-  // with facets less planar, which might have had none. Vertices, most of the time: there it needs
-  // more of them.
+  // that kept the surface as given, which might have had none. Vertices, most of the time: there it
+  // needs more of them.
   Limit planar_limit = Limit::none;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
   double tau = 0;                   // in force: Options::tau, or more for the budget
@@ -61,10 +61,10 @@ struct Statistics {
   double guaranteed_corner = 0;        // the same for the angle of two edges
   bool gabriel = false;                // the constraints of the refined mesh have empty balls
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
-  // Limits that the mesher set itself: refinements that the guard stopped, each followed by another
-  // one; whether the treatment of slivers, or of angles above the guaranteed bound, was ended by
-  // its cap on insertions; and how often the constrained tetrahedrization began again.
-  std::uint64_t guard_stops = 0;
+  RungCounts ladder;                   // in all runs
+  // Limits that the mesher set itself: whether the treatment of slivers, or of angles above the
+  // guaranteed bound, was ended by its cap on insertions; and how often the constrained
+  // tetrahedrization began anew.
   bool refinement_capped = false;
   std::uint64_t cdt_restarts = 0;
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "mesher/base/climb.h"
 #include "mesher/output/local_operations.h"
 #include "mesher/output/rounded_mesh.h"
 #include "mesher/output/vertex_moves.h"
@@ -190,43 +191,60 @@ void shuffle_tetrahedra(ConformingMesh& mesh, std::uint32_t& state) {
   }
 }
 
-// The best of several attempts; `signs` counts those of all.
-RoundingResult best_rounding(RoundingInput& input, Control& control, const RepairLimits& limits,
-                             std::uint64_t& signs) {
-  // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
-  // in a dead end, another may not.
-  constexpr int kOrders = 4;
-  const auto round = [&](Strategy s) {
-    RoundingResult result = round_once(input, s, control, limits.most);
+// The best of several attempts. Which repairs are possible depends on those done before: where one
+// order of the tetrahedra ends in a dead end, another may not.
+struct Repairing {
+  RoundingInput& input;
+  Control& control;
+  const RepairLimits& limits;
+  RoundingResult best;
+  std::uint64_t signs = 0;  // in all attempts
+  std::uint32_t order = 1;
+  bool first_strategy = true;
+
+  RoundingResult round(Strategy strategy) {
+    RoundingResult result = round_once(input, strategy, control, limits.most);
     signs += result.signs;
     return result;
-  };
-  RoundingResult best = round(Strategy::descend);
-  if (limits.thorough == 0 || !best.tried || defects(best).first > limits.thorough) return best;
-  std::uint32_t state = 1;
-  for (int order = 1; order < kOrders && defects(best).first > 0; ++order) {
-    shuffle_tetrahedra(input.mesh, state);
+  }
+  bool good_enough() const { return defects(best) == kNoDefects; }
+  bool few_defects() const {
+    return limits.thorough > 0 && best.tried && defects(best).first <= limits.thorough;
+  }
+
+  void descend_in_another_order() {
+    shuffle_tetrahedra(input.mesh, order);
     RoundingResult other = round(Strategy::descend);
     if (defects(other).first < defects(best).first) best = std::move(other);
   }
-  for (int order = 0; order < kOrders; ++order) {
-    for (const Strategy s : {Strategy::descend_and_untangle, Strategy::untangle_first}) {
-      if (defects(best) == kNoDefects) return best;
-      RoundingResult other = round(s);
-      if (defects(other) < defects(best)) best = std::move(other);
-    }
-    shuffle_tetrahedra(input.mesh, state);
+  // Each order with both strategies.
+  void untangle() {
+    RoundingResult other =
+        round(first_strategy ? Strategy::descend_and_untangle : Strategy::untangle_first);
+    if (defects(other) < defects(best)) best = std::move(other);
+    if (!first_strategy) shuffle_tetrahedra(input.mesh, order);
+    first_strategy = !first_strategy;
   }
-  return best;
-}
+};
+
+constexpr Step<Repairing> kRepairs[] = {
+    {Rung::other_orders,
+     [](const Repairing& a) { return a.few_defects() && defects(a.best).first > 0; },
+     [](Repairing& a) { a.descend_in_another_order(); }},
+    {Rung::untangle, [](const Repairing& a) { return a.few_defects(); },
+     [](Repairing& a) { a.untangle(); }},
+};
 
 }  // namespace
 
 RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLimits& limits) {
-  std::uint64_t signs = 0;
-  RoundingResult result = best_rounding(input, control, limits, signs);
-  result.signs = signs;
-  return result;
+  Repairing attempt{input, control, limits, {}};
+  attempt.best = attempt.round(Strategy::descend);
+  RungCounts taken;
+  climb(attempt, kRepairs, taken);
+  attempt.best.signs = attempt.signs;
+  attempt.best.ladder = taken;
+  return std::move(attempt.best);
 }
 
 }  // namespace delmesher::output

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/delmesher/ladder.h"
 #include "mesher/delmesher/tet_mesh.h"
 #include "mesher/geometry/local_frame.h"
 #include "mesher/predicates/points.h"
@@ -43,6 +44,7 @@ struct RoundingResult {
   std::uint64_t repaired = 0;    // how many fewer are not positive than after plain rounding
   std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one
   std::uint64_t signs = 0;       // of tetrahedra in doubles that were decided, in all attempts
+  RungCounts ladder;             // in all attempts
   bool tried = true;             // false: there was too much to repair (RepairLimits::most)
   // Points of the store at the tetrahedra that plain rounding left not positive; may be repeated.
   std::vector<VertexId> disturbed;

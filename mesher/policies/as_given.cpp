@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "mesher/base/sort_unique.h"
-#include "mesher/enrich/returning.h"
 #include "mesher/surface/given_place.h"
 
 namespace delmesher::policies {
@@ -18,10 +17,10 @@ void set_supports(const ConformingMesh& mesh, const Session& session,
   for (const SurfaceFace& face : mesh.boundary) {
     for (const VertexId v : face.vertices) planes[v].push_back(as_given.facet_plane[face.facet]);
   }
-  const auto before = static_cast<PlaneId>(session.topology.plane_count),
+  const auto before = static_cast<PlaneId>(session.surface.topology().plane_count),
              now = static_cast<PlaneId>(as_given.plane_count);
   for (VertexId v = 0; v < points.size(); ++v) {
-    if (v < session.given.size()) {
+    if (v < session.surface.given_vertices().size()) {
       points.set_supports(v, vertices.planes(v), vertices.lines(v));
       continue;
     }
@@ -31,7 +30,7 @@ void set_supports(const ConformingMesh& mesh, const Session& session,
     sort_unique(planes[v]);
     std::vector<std::uint32_t> lines;
     const PointDefinition d = points.definition(v);
-    if (d.kind == PointKind::on_segment && d.corner[0] < session.given.size()) {
+    if (d.kind == PointKind::on_segment && d.corner[0] < session.surface.given_vertices().size()) {
       const std::uint32_t edge = edge_between(as_given, d.corner[0], d.corner[1]);
       if (edge != kNone && as_given.edge_is_flat[edge] == 0) {
         lines = {edge, as_given.edge_line[edge]};
@@ -67,15 +66,10 @@ PointStore vertices_of(const PointStore& points, std::size_t count) {
 
 SurfaceTopology build(const Session& session, PointStore& points) {
   Predicates predicates(points);
-  return build_topology({session.given, session.topology.triangles, session.topology.labels},
+  const std::span<const Vec3> given = session.surface.given_vertices();
+  const SurfaceTopology& planarized = session.surface.topology();
+  return build_topology({{given.begin(), given.end()}, planarized.triangles, planarized.labels},
                         points, predicates);
-}
-
-void enter(SurfaceTopology as_given, PointStore points, Session& session) {
-  session.stand_in = vertices_of(session.points, session.given.size());
-  session.points = std::move(points);
-  session.topology = std::move(as_given);
-  session.given.clear();
 }
 
 }  // namespace
@@ -91,26 +85,15 @@ SurfaceTopology topology_as_given(const Session& session) {
 
 bool go_back(const ConformingMesh& mesh, SurfaceTopology as_given, Session& session) {
   PointStore points;
-  append_as_given(session.points, session.given, points);
+  append_as_given(session.points, session.surface.given_vertices(), points);
   if (!conforms(mesh, as_given, points, session.control)) return false;
   PointStore vertices;
   build(session, vertices);  // for the supports of the vertices
   set_supports(mesh, session, as_given, vertices, points);
-  enter(std::move(as_given), std::move(points), session);
+  session.surface.return_to_given(std::move(as_given),
+                                  vertices_of(session.points, session.input_vertices()));
+  session.points = std::move(points);
   return true;
-}
-
-cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, Session& session) {
-  PointStore points;
-  SurfaceTopology as_given = build(session, points);
-  append_as_given(session.points, session.given, points);
-  Predicates predicates(points);
-  cdt::CdtInput input = enrich::input_as_given(mesh, session.topology, session.points, as_given,
-                                               points, predicates, session.control);
-  enter(std::move(as_given), std::move(points), session);
-  input.topology = &session.topology;
-  return cdt::constrained_delaunay_tetrahedrization(input, session.points, session.predicates,
-                                                    session.control);
 }
 
 }  // namespace delmesher::policies

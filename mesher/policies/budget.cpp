@@ -8,7 +8,7 @@
 namespace delmesher::policies {
 namespace {
 
-double predict(const chamfer::ChamferedSurface& surface, const Session& session) {
+double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, const Session& session) {
   refine::PredictionOptions options;
   options.region = session.options.region;
   options.max_edge = session.options.max_edge;
@@ -16,7 +16,7 @@ double predict(const chamfer::ChamferedSurface& surface, const Session& session)
   // Every triangle that the filter drops comes back in the final step, with at least one and a half
   // tetrahedra.
   return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +
-         refine::predict_tetrahedra(surface.chamfer.plc, session.topology,
+         refine::predict_tetrahedra(surface.chamfer.plc, session.surface.topology(),
                                     surface.filter.facet_kept, session.points, options,
                                     session.control);
 }
@@ -29,22 +29,27 @@ std::string over_budget(double predicted, double tau, std::uint64_t budget) {
 
 }  // namespace
 
-bool Budget::raise_tau_over_budget(const chamfer::ChamferedSurface& surface, Session& session,
-                                   Recorder& recorder) {
-  // Beyond this, whole features of the model go.
-  constexpr double kLargestTau = 0.05, kLeastTau = 1e-5;
-  const std::uint64_t budget = session.options.budget;
-  const double predicted = predict(surface, session);
-  recorder.predicted(predicted);
-  if (budget == 0 || predicted <= static_cast<double>(budget)) {
-    session.control.predict(predicted);
-    return false;
-  }
-  if (tau_ > kLargestTau) {
-    throw Stopped{{StatusCode::limit_reached, over_budget(predicted, tau_, budget), Limit::size}};
-  }
+void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& session,
+                     Recorder& recorder) {
+  predicted_ = predicted_tetrahedra(surface, session);
+  recorder.predicted(predicted_);
+}
+
+bool Budget::can_double_tau() const {
+  constexpr double kLargestTau = 0.05;
+  return tau_ <= kLargestTau;
+}
+
+void Budget::double_tau() {
+  constexpr double kLeastTau = 1e-5;
   tau_ = std::max(2 * tau_, kLeastTau);
-  return true;
+}
+
+void Budget::settle(Session& session) const {
+  if (!is_kept()) {
+    throw Stopped{{StatusCode::limit_reached, over_budget(predicted_, tau_, budget_), Limit::size}};
+  }
+  session.control.predict(predicted_);
 }
 
 }  // namespace delmesher::policies

@@ -11,19 +11,23 @@ namespace delmesher::policies {
 // Options::budget says (0: never).
 class Budget {
  public:
-  explicit Budget(const Options& options) : tau_(options.tau) {}
+  explicit Budget(const Options& options) : budget_(options.budget), tau_(options.tau) {}
 
   // In force: a fraction of the diagonal.
   double tau() const { return tau_; }
-
-  // Doubles tau() if the mesh of that surface, which was filtered with tau(), is predicted to
-  // exceed the budget; throws Stopped where tau() is too large for that. Returns whether it was
-  // doubled. Otherwise the prediction is told to Session::control.
-  bool raise_tau_over_budget(const chamfer::ChamferedSurface& surface, Session& session,
-                             Recorder& recorder);
+  // Predicts the mesh of that surface, which was filtered with tau().
+  void predict(const chamfer::ChamferedSurface& surface, const Session& session,
+               Recorder& recorder);
+  bool is_kept() const { return budget_ == 0 || predicted_ <= static_cast<double>(budget_); }
+  // Not beyond a twentieth of the diagonal, because whole features of the model would go.
+  bool can_double_tau() const;
+  void double_tau();
+  // Tells Session::control the prediction; throws Stopped if it exceeds the budget.
+  void settle(Session& session) const;
 
  private:
-  double tau_;
+  const std::uint64_t budget_;
+  double tau_, predicted_ = 0;
 };
 
 }  // namespace delmesher::policies

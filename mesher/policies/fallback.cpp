@@ -65,42 +65,32 @@ Fallback::Fallback(const Options& options)
 
 InForce Fallback::in_force(double tau) const {
   constexpr double kRight = 90;
-  return {tau,
-          everywhere() ? kRight : options_.acute,
-          everywhere() ? kRight : corner_threshold(options_),
-          gabriel_,
-          &chamfering_.vertex_cosine_squared,
-          stops_};
+  return {tau, is_tight_everywhere() ? kRight : options_.acute,
+          is_tight_everywhere() ? kRight : corner_threshold(options_), gabriel_,
+          &chamfering_.vertex_cosine_squared};
 }
 
 double Fallback::runaway_length(const Session& session, double tau) {
   constexpr double kRunawayFraction = 1.0 / 4096;
-  if (options_.as_paper.no_guard || (gabriel_ && everywhere())) return 0;
+  if (options_.as_paper.no_guard || (gabriel_ && is_tight_everywhere())) return 0;
   // The filter leaves tau between features, and chamfering a 16th of it: this is a 256th of that.
   if (tau > 0) return tau * session.diagonal * kRunawayFraction;
   if (feature_length_ < 0) {
     feature_length_ =
-        smallest_local_feature_size(session.topology, session.points, session.control);
+        smallest_local_feature_size(session.surface.topology(), session.points, session.control);
   }
   return feature_length_ * kRunawayFraction;
 }
 
-// Every local step tightens at least one more corner, so they would end by themselves; but each
-// costs a refinement up to the place where it runs away. So they reach farther with time, and after
-// kLocalSteps of them everything is tightened. With --acute 90 only the threshold of two edges can
-// be stricter; it has one value for all corners, also in records, so there are no local steps.
-void Fallback::tighten(const Vec3& place, const Session& session) {
-  ++stops_;
-  if (!gabriel_) {
-    gabriel_ = true;
-  } else if (local_steps_ < kLocalSteps && chamfering_.cosine_squared > 0) {
-    tighten_corners(place, 1 + local_steps_ / kSameReach, chamfering_.cosine_squared,
-                    session.topology, session.points, chamfering_.vertex_cosine_squared);
-    ++local_steps_;
-  } else {
-    chamfering_.cosine_squared = chamfering_.corner_cosine_squared = 0;
-    chamfering_.vertex_cosine_squared.clear();
-  }
+void Fallback::tighten_nearby(const Vec3& place, const Session& session) {
+  tighten_corners(place, 1 + times_nearby_ / kSameReach, chamfering_.cosine_squared,
+                  session.surface.topology(), session.points, chamfering_.vertex_cosine_squared);
+  ++times_nearby_;
+}
+
+void Fallback::tighten_everywhere() {
+  chamfering_.cosine_squared = chamfering_.corner_cosine_squared = 0;
+  chamfering_.vertex_cosine_squared.clear();
 }
 
 }  // namespace delmesher::policies

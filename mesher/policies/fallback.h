@@ -19,10 +19,7 @@ chamfer::ChamferOptions chamfer_options(const Options& options);
 // away, at last with them everywhere. Deterministic: the guard looks at lengths, never at time.
 class Fallback {
  public:
-  // The first kLocalSteps times, only corners near the place are tightened: the nearest one that is
-  // not tight yet, and those up to some edges away from it. That is one edge at first, and one more
-  // after every kSameReach times.
-  static constexpr int kLocalSteps = 32, kSameReach = 8;
+  static constexpr int kSameReach = 8;
 
   explicit Fallback(const Options& options);
 
@@ -32,19 +29,24 @@ class Fallback {
   // An edge shorter than this means that corners make each other split for ever. 0: there is no
   // guard, because the refinement ends with the thresholds in force, or for --as-paper no-guard.
   double runaway_length(const Session& session, double tau);
-  // The next step, after a refinement that ran away near `place`.
-  void tighten(const Vec3& place, const Session& session);
-
- private:
-  bool everywhere() const {
+  void empty_balls() { gabriel_ = true; }
+  // With --acute 90 only the threshold of two edges can be stricter; it has one value for all
+  // corners, also in records.
+  bool can_tighten_nearby() const { return chamfering_.cosine_squared > 0; }
+  // After a refinement that ran away near `place`: tightens the nearest corner that is not tight
+  // yet, and those up to some edges away from it. That is one edge at first, and one more after
+  // every kSameReach times, because each time costs a refinement up to the place.
+  void tighten_nearby(const Vec3& place, const Session& session);
+  bool is_tight_everywhere() const {
     return chamfering_.cosine_squared == 0 && chamfering_.corner_cosine_squared == 0;
   }
+  void tighten_everywhere();
 
+ private:
   const Options& options_;
   chamfer::ChamferOptions chamfering_;
   bool gabriel_;
-  int local_steps_ = 0;
-  std::uint64_t stops_ = 0;
+  int times_nearby_ = 0;
   double feature_length_ = -1;  // smallest local feature size, if tau is 0; below 0: not known yet
 };
 

@@ -11,8 +11,8 @@ namespace {
 struct Guarded {
   explicit Guarded(const Options& wanted)
       : options(wanted), control(options), session(options, control), fallback(options) {
-    session.topology =
-        build_topology(cdt::test_models::star(4, 1, 1), session.points, session.predicates);
+    session.surface.enter_given(
+        build_topology(cdt::test_models::star(4, 1, 1), session.points, session.predicates));
     session.diagonal = 2;
   }
   std::uint64_t tight() const {
@@ -32,11 +32,9 @@ TEST(Fallback, BeginsWithEmptyBallsAlone) {
   Guarded g{Options{}};
   const InForce before = g.fallback.in_force(0);
   EXPECT_FALSE(before.gabriel);
-  EXPECT_EQ(before.guard_stops, 0U);
-  g.fallback.tighten({1, 0, 0}, g.session);
+  g.fallback.empty_balls();
   const InForce after = g.fallback.in_force(0);
   EXPECT_TRUE(after.gabriel);
-  EXPECT_EQ(after.guard_stops, 1U);
   EXPECT_EQ(after.acute, g.options.acute);
   EXPECT_EQ(g.tight(), 0U);
 }
@@ -48,8 +46,8 @@ TEST(Fallback, TightensWhatIsNearestAndEndsWithEverything) {
   Guarded g(options);
   const Vec3 place = {1, 0, 0};
   std::uint64_t before = 0;
-  for (int step = 1; step <= Fallback::kLocalSteps; ++step) {
-    g.fallback.tighten(place, g.session);
+  for (int step = 1; step <= 32; ++step) {
+    g.fallback.tighten_nearby(place, g.session);
     const InForce force = g.fallback.in_force(0);
     EXPECT_GT(g.tight(), before) << step;
     if (step == 1) {
@@ -59,12 +57,11 @@ TEST(Fallback, TightensWhatIsNearestAndEndsWithEverything) {
       EXPECT_LT(g.tight(), g.session.input_vertices() / 8);
     }
     EXPECT_EQ(force.acute, options.acute);
-    EXPECT_EQ(force.guard_stops, static_cast<std::uint64_t>(step));
     EXPECT_GT(g.fallback.runaway_length(g.session, 1e-4), 0);
     before = g.tight();
     if (before == g.session.input_vertices()) break;
   }
-  for (int step = 0; step < Fallback::kLocalSteps; ++step) g.fallback.tighten(place, g.session);
+  g.fallback.tighten_everywhere();
   const InForce end = g.fallback.in_force(0);
   EXPECT_EQ(end.acute, 90);
   EXPECT_EQ(end.corner, 90);
@@ -75,7 +72,7 @@ TEST(Fallback, TightCornersAreNearThePlace) {
   Options options;
   options.gabriel = true;
   Guarded g(options);
-  for (int step = 0; step < 4; ++step) g.fallback.tighten({1, 0, 0}, g.session);
+  for (int step = 0; step < 4; ++step) g.fallback.tighten_nearby({1, 0, 0}, g.session);
   const InForce force = g.fallback.in_force(0);
   for (VertexId v = 0; v < g.session.input_vertices(); ++v) {
     if (!force.tightened(v)) continue;
@@ -90,7 +87,8 @@ TEST(Fallback, WithRightAnglesOnlyTwoEdgesBecomeStricterAndAllAtOnce) {
   options.acute = 90;
   Guarded g(options);
   EXPECT_LT(g.fallback.in_force(0).corner, 90);
-  g.fallback.tighten({1, 0, 0}, g.session);
+  EXPECT_FALSE(g.fallback.can_tighten_nearby());
+  g.fallback.tighten_everywhere();
   EXPECT_EQ(g.fallback.in_force(0).corner, 90);
   EXPECT_EQ(g.tight(), 0U);
   EXPECT_EQ(g.fallback.runaway_length(g.session, 1e-4), 0);

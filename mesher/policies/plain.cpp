@@ -5,16 +5,19 @@
 
 namespace delmesher::policies {
 
-std::optional<cdt::CdtResult> plain_without_points(Session& session) {
+bool may_be_plain(const Session& session) {
   constexpr std::size_t kMostTriangles = 1000;
   const Options& options = session.options;
-  if (options.as_paper.enrichment || options.region != Region::interior || session.bounds_edges() ||
-      session.topology.triangles.size() > kMostTriangles) {
-    return std::nullopt;
-  }
+  return !options.as_paper.enrichment && options.region == Region::interior &&
+         !session.bounds_edges() && session.surface.topology().triangles.size() <= kMostTriangles;
+}
+
+std::optional<cdt::CdtResult> plain_without_points(Session& session) {
+  if (!may_be_plain(session)) return std::nullopt;
   const std::size_t enriched_points = session.points.size();
   cdt::CdtResult plain = cdt::constrained_delaunay_tetrahedrization(
-      enrich::plain_input(session.topology), session.points, session.predicates, session.control);
+      enrich::plain_input(session.surface.topology()), session.points, session.predicates,
+      session.control);
   session.points.truncate(enriched_points);
   if (!plain.steiner.empty()) return std::nullopt;
   return plain;

@@ -8,9 +8,12 @@
 
 namespace delmesher::policies {
 
-// The plain constrained tetrahedrization, if it needs no point besides the input's vertices.
-// Nothing for the hull, with max_edge or a size field, with --as-paper enrichment, and above 1000
-// triangles, where it is not tried.
+// May the mesh be that of the input alone? Not for the hull, with max_edge or a size field, with
+// --as-paper enrichment, and above 1000 triangles.
+bool may_be_plain(const Session& session);
+
+// The plain constrained tetrahedrization, if it may be the mesh and needs no point besides the
+// input's vertices.
 std::optional<cdt::CdtResult> plain_without_points(Session& session);
 
 // That, if it meets the bound and is at least as good as the enriched one: in smallest face angle,

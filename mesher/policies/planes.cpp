@@ -1,5 +1,7 @@
 #include "mesher/policies/planes.h"
 
+#include <utility>
+
 #include "mesher/policies/planar_bound.h"
 
 namespace delmesher::policies {
@@ -30,8 +32,12 @@ PlanarSurface enter_surface(const Surface& surface, const ValidityResult& validi
   StandIn stand_in =
       find_stand_in(outwards, bound, s.control,
                     planes == Planes::while_refined ? Retriangulate::no : Retriangulate::yes);
-  if (!stand_in.planes.empty()) s.given = outwards.vertices;
-  s.topology = build_topology(outwards, s.points, s.predicates, stand_in);
+  SurfaceTopology topology = build_topology(outwards, s.points, s.predicates, stand_in);
+  if (stand_in.planes.empty()) {
+    s.surface.enter_given(std::move(topology));
+  } else {
+    s.surface.enter_planarized(std::move(topology), outwards.vertices);
+  }
   return {std::move(stand_in), bound};
 }
 

@@ -15,7 +15,6 @@ struct InForce {
   bool gabriel = false;          // empty diametral balls
   // Per input vertex, 0 where corners are chamfered up to 90 degrees; empty: nowhere.
   const std::vector<double>* vertex_cosine_squared = nullptr;
-  std::uint64_t guard_stops = 0;  // how often the guard made something stricter
 
   bool tightened(VertexId v) const {
     return !vertex_cosine_squared->empty() && (*vertex_cosine_squared)[v] == 0;

@@ -43,7 +43,7 @@ void Recorder::checked(const SurfaceReport& report) {
 
 void Recorder::planar(const StandIn& stand_in, double bound, const ValidityResult& validity) {
   Statistics& s = result_.statistics;
-  s.facets = session_.topology.facet_triangles.size();
+  s.facets = session_.surface.topology().facet_triangles.size();
   if (stand_in.planes.empty()) return;
   s.planar_groups = stand_in.groups;
   if (exact()) {
@@ -68,7 +68,6 @@ void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
   s.guaranteed_acute = force.acute;
   s.guaranteed_corner = force.corner;
   s.gabriel = force.gabriel;
-  s.guard_stops = force.guard_stops;
   const std::vector<double>& tightened = *force.vertex_cosine_squared;
   s.fallback_corners =
       static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
@@ -76,7 +75,7 @@ void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
   ExactRecord& record = result_.exact;
   record_parameters(session_.options, force, session_.diagonal, result_.statistics.planar_bound,
                     record);
-  record_facets(session_.topology, &filter, record);
+  record_facets(session_.surface.topology(), &filter, record);
   record_chamfer(chamfered, force, record);
 }
 
@@ -89,9 +88,10 @@ void Recorder::refined(const chamfer::ChamferResult& chamfered,
   s.steiner_in_volume = refined.in_volume.size();
   s.refined =
       refined_statistics(refined, session_.points, session_.options.region, session_.control);
-  if (exact()) record_refined(chamfered, refined, session_.topology, result_.exact);
+  if (exact()) record_refined(chamfered, refined, session_.surface.topology(), result_.exact);
   if (session_.options.want_chamfered) {
-    result_.chamfered = chamfered_surface(chamfered, refined, session_.topology, session_.points);
+    result_.chamfered =
+        chamfered_surface(chamfered, refined, session_.surface.topology(), session_.points);
   }
 }
 
@@ -99,17 +99,18 @@ void Recorder::tetrahedrized(const cdt::CdtResult& cdt) {
   result_.statistics.steiner_on_segments += cdt.steiner.size();
   result_.statistics.cdt_restarts = cdt.counters.facet_restarts;
   if (!exact()) return;
-  if (result_.exact.facets.empty()) record_facets(session_.topology, nullptr, result_.exact);
-  record_final(cdt.mesh, session_.topology, result_.exact);
+  if (result_.exact.facets.empty())
+    record_facets(session_.surface.topology(), nullptr, result_.exact);
+  record_final(cdt.mesh, session_.surface.topology(), result_.exact);
 }
 
 void Recorder::improved(const ConformingMesh& mesh) {
-  if (exact()) record_changed(mesh, session_.topology, result_.exact);
+  if (exact()) record_changed(mesh, session_.surface.topology(), result_.exact);
 }
 
 void Recorder::thinned(const ConformingMesh& mesh, std::uint64_t vertices) {
   result_.statistics.rounding_thinned = vertices;
-  if (exact()) record_changed(mesh, session_.topology, result_.exact);
+  if (exact()) record_changed(mesh, session_.surface.topology(), result_.exact);
 }
 
 void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing) {
@@ -139,10 +140,10 @@ void Recorder::written(output::RoundingResult rounded) {
     if (rounded.operations > 0) {
       record_repaired(rounded, session_.options.region, result_.exact);
     }
-    record_points(session_.points, session_.stand_in ? &*session_.stand_in : nullptr,
+    record_points(session_.points, session_.surface.planarized_vertices(),
                   session_.input_vertices(), rounded, result_.exact);
   }
-  const SurfaceTopology& topology = session_.topology;
+  const SurfaceTopology& topology = session_.surface.topology();
   for (std::uint32_t& facet : mesh.boundary_facets) {
     facet = topology.facet_triangles[facet][0];
     mesh.boundary_labels.push_back(topology.labels[facet]);

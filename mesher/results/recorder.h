@@ -20,6 +20,7 @@ class Recorder {
  public:
   Recorder(const Session& session, Result& result) : session_(session), result_(result) {}
 
+  RungCounts& ladder() { return result_.statistics.ladder; }
   void checked(const SurfaceReport& report);
   // Facets were made planar within `bound`. The triangles recorded are oriented as in the input.
   void planar(const StandIn& stand_in, double bound, const ValidityResult& validity);
@@ -38,10 +39,7 @@ class Recorder {
   void put_back(std::uint64_t diagonals, std::uint64_t missing);
   // Points on edges that came back were taken out for fewer tetrahedra.
   void spared(std::uint64_t points) { result_.statistics.diagonals_spared = points; }
-  // The surface as given was tetrahedrized again, with the same vertices.
-  void tetrahedrized_anew() { result_.statistics.planar_anew = true; }
-  // The mesh is of no use, because it cannot be put back.
-  void given_up() { result_.statistics.planar_given_up = true; }
+  void no_way_back() { result_.statistics.planar_given_up = true; }
   // The mesh itself, as written.
   void written(output::RoundingResult rounded);
   // Times and counters, however the run ended; without a mesh if it failed.

@@ -29,7 +29,7 @@ output::RoundingInput rounding_input(ConformingMesh mesh, const Session& session
   input.mesh = std::move(mesh);
   input.points = &points;
   input.frame = session.frame;
-  input.place = places(points, session.given);
+  input.place = places(points, session.surface.given_vertices());
   input.fixed.resize(points.size());
   input.on_surface.resize(points.size());
   for (VertexId v = 0; v < points.size(); ++v) {

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher.h"
 #include "mesher/geometry/local_frame.h"
 #include "mesher/geometry/size_field.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/topology.h"
+#include "mesher/run/meshed_surface.h"
 
 namespace delmesher::run {
 
@@ -22,18 +21,13 @@ struct Session {
   const LocalFrame frame;  // of all coordinates but those that are written
   PointStore points;       // the input vertices, then what the stages append
   Predicates predicates{points};
-  SurfaceTopology topology;  // of the input, or of its stand-in; oriented outwards
-  // The vertices as given, if there is a stand-in; else empty.
-  std::vector<Vec3> given;
-  // What the stand-in's vertices were, once the session has gone back to the surface as given
-  // (policies/as_given.h): its first points, and their planes.
-  std::optional<PointStore> stand_in;
+  MeshedSurface surface;
   SizeField sizes;
   double diagonal = 0;  // of the input's bounding box, in its units
 
   // Are edges inside to be no longer than someone said?
   bool bounds_edges() const { return options.max_edge > 0 || !sizes.empty(); }
-  std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }
+  std::size_t input_vertices() const { return surface.topology().vertex_half_edge.size(); }
 };
 
 }  // namespace delmesher::run

@@ -164,10 +164,9 @@ struct Part {
   std::uint64_t most;  // tetrahedra
 };
 
-// By local operations, not tetrahedrized again.
+// By local operations, not meshed anew.
 void expect_kept(const Part& part) {
   const Told told = run_of(part.surface, 0);
-  EXPECT_FALSE(told.statistics.planar_anew);
   EXPECT_FALSE(told.statistics.planar_given_up);
   EXPECT_FALSE(told.record.planes.empty());
   EXPECT_LT(told.statistics.final.tetrahedra, part.most);

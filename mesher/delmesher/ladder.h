@@ -1,0 +1,79 @@
+// The ladder: what a run does where an attempt is not good enough.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace delmesher {
+
+// In the order in which the rungs are taken: those of a stage are complete before the next stage
+// begins, and the last ones repeat the run. What an attempt has to do to be good enough:
+enum class Rung : std::uint8_t {
+  // Filter and chamfering: the prediction keeps to the budget.
+  larger_tau,
+  // Refinement: it ends.
+  empty_balls,
+  chamfers_nearby,
+  chamfers_everywhere,
+  // Rounding: no tetrahedron is inverted or flat, as written or on exact coordinates.
+  other_orders,
+  untangle,
+  thin_out,
+  input_alone,
+  all_repairs,
+  // The run: the same, where vertices were moved to make facets planar; and with --planar 0 the
+  // mesh
+  // has gone back to the surface as given.
+  back_to_given,
+  no_planes
+};
+inline constexpr std::size_t kRungCount = 11;
+
+// Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
+struct RungRow {
+  const char* name;  // in the statistics
+  std::size_t at_most;
+  const char* when;    // besides that
+  const char* change;  // for the next attempt
+  const char* kept;    // of the attempt before
+  const char* cost;
+};
+
+inline constexpr std::array<RungRow, kRungCount> kLadder = {{
+    {"larger_tau", 14, "tau is below 0.05", "twice the tau: the filter drops more", "the surface",
+     "filter, chamfering"},
+    {"empty_balls", 1, "they are not asked for", "empty diametral balls", "tau",
+     "filter, chamfering, refinement"},
+    {"chamfers_nearby", 32, "they are not everywhere",
+     "chamfers up to 90 degrees at corners nearby", "tau", "filter, chamfering, refinement"},
+    {"chamfers_everywhere", 1, "they are not everywhere",
+     "chamfers up to 90 degrees at all corners", "tau", "filter, chamfering, refinement"},
+    {"other_orders", 3, "few defects are left", "repairs in another order", "the mesh",
+     "the repairs"},
+    {"untangle", 8, "few defects are left", "repairs that move vertices over others", "the mesh",
+     "a hundred times the repairs"},
+    {"thin_out", 4, "", "points at the defects, then around them, are taken out", "other points",
+     "the repairs"},
+    {"input_alone", 1, "the surface is small", "only the vertices of the input", "the surface",
+     "a constrained tetrahedrization, the repairs"},
+    {"all_repairs", 1, "more than a few defects are left", "repairs without a limit", "the mesh",
+     "milliseconds for each defect"},
+    {"back_to_given", 1, "the mesh may go back", "as with planar facets only while it is refined",
+     "nothing", "a run"},
+    {"no_planes", 1, "", "no planar facets", "nothing", "a run; tetrahedra as before"},
+}};
+
+// How often each rung was taken.
+struct RungCounts {
+  std::array<std::uint64_t, kRungCount> times{};
+
+  std::uint64_t& operator[](Rung rung) { return times[static_cast<std::size_t>(rung)]; }
+  std::uint64_t operator[](Rung rung) const { return times[static_cast<std::size_t>(rung)]; }
+  RungCounts& operator+=(const RungCounts& other) {
+    for (std::size_t i = 0; i < kRungCount; ++i) times[i] += other.times[i];
+    return *this;
+  }
+};
+
+}  // namespace delmesher
