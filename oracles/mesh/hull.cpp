@@ -22,6 +22,7 @@ class Hull {
       : complex_(complex),
         neighbours_(neighbours),
         points_(*complex.points),
+        options_(options),
         allowed_(options.allowed) {
     for (Index i = 0; i < neighbours.across.size(); ++i) {
       if (neighbours.across[i] != kNone) continue;
@@ -46,11 +47,13 @@ class Hull {
   void check_edges();
   void check_edge(const Side& side, const Side& other);
   void check_volume();
+  void compare(const ExactSum& sum, const ExactSum& body, const char* whose);
   double area() const;  // in squares of 2^area_unit() input units
 
   const TetComplex& complex_;
   const Neighbours& neighbours_;
   const ExactPoints& points_;
+  const HullOptions options_;
   double allowed_;
   std::vector<Face> faces_;
   std::vector<std::uint8_t> corner_;  // per point: at the end of an edge that is not flat
@@ -133,17 +136,24 @@ void Hull::check_volume() {
   const long exponent = 3 * points_.exponent();
   const double volume = hull.value(exponent) / 6;
   report_.figures.emplace_back("volume of the hull", volume);
-  if (sum == hull) return;
-  const double excess = difference(sum, hull, exponent) / 6;
+  compare(sum, hull, "the hull's");
+  if (!options_.of.empty()) {
+    compare(sum, ExactSum(cgal_hull_volume6(points_, options_.of)), "that of the input's hull,");
+  }
+}
+
+void Hull::compare(const ExactSum& sum, const ExactSum& body, const char* whose) {
+  if (sum == body) return;
+  const long exponent = 3 * points_.exponent();
+  const double excess = difference(sum, body, exponent) / 6;
   report_.figures.emplace_back("difference", excess);
   // In the unit of areas times the input's.
   const double thick =
-      difference(sum, hull, exponent - 2 * area_unit(points_.largest_coordinate())) / 6;
+      difference(sum, body, exponent - 2 * area_unit(points_.largest_coordinate())) / 6;
   if (allowed_ > 0 && std::fabs(thick) <= 2 * allowed_ * area()) return;
   char text[128];
-  std::snprintf(text, sizeof text,
-                "all tetrahedra have a volume that differs by %.3g from the hull's %.6g", excess,
-                volume);
+  std::snprintf(text, sizeof text, "all tetrahedra have a volume that differs by %.3g from %s %.6g",
+                excess, whose, body.value(exponent) / 6);
   report_.fail(text);
 }
 #else

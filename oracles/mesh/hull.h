@@ -1,6 +1,8 @@
 // The outer boundary of a tetrahedrization that fills a convex region: the box or the hull.
 #pragma once
 
+#include <span>
+
 #include "oracles/mesh/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -9,6 +11,8 @@ struct HullOptions {
   // Rounded vertices of the boundary leave it. An edge may then be reflex by this distance, in
   // input units, and the volume may be off by twice that times the area. 0: exact.
   double allowed = 0;
+  // What is filled is the hull of these points; if there are none, any convex body.
+  std::span<const Index> of = {};
 };
 
 // Hull oracle: the boundary faces close up to one sphere that is convex at every edge. The
