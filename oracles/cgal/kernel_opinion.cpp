@@ -55,13 +55,16 @@ mpz_class common_denominator(const ExactPoints& points, Indices... indices) {
 struct KernelOpinion::Kernel {
   const ExactPoints& points;
 
-  // CGAL's intervals need the rounding mode set upwards, and tell when they are not certain.
+  // CGAL's intervals need the rounding mode set upwards, and tell when they are not certain. Of
+  // numbers below the least normal double they say 0 where the sign is not.
   template <class Predicate, class... Indices>
   int decide(const Predicate& predicate, Indices... indices) const {
     {
       const CGAL::Protect_FPU_rounding<true> protection;
       const auto rough = predicate(rough_point(points, indices)...);
-      if (CGAL::is_certain(rough)) return static_cast<int>(CGAL::get_certain(rough));
+      const int sign = CGAL::is_certain(rough) ? static_cast<int>(CGAL::get_certain(rough)) : 0;
+      const bool normal = points.exponent() >= -1022;
+      if (sign != 0 || (normal && CGAL::is_certain(rough))) return sign;
     }
     const mpz_class denominator = common_denominator(points, indices...);
     return static_cast<int>(
