@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/base/box.h"
+#include "oracles/base/box_tree.h"
 #include "oracles/base/triangle_distance.h"
 #include "oracles/base/vectors.h"
 #include "oracles/surface/input_surface.h"
@@ -195,6 +195,139 @@ std::string turn_outwards(Polyhedron& surface) {
   return why;
 }
 
+// Is a point inside, by the parity of a ray? Decided in doubles, where they certainly do.
+class Parity {
+ public:
+  explicit Parity(const Polyhedron& surface) : surface_(surface), tree_(boxes_of(surface)) {
+    for (const Position& p : surface.vertices) {
+      for (const double x : p) largest_ = std::max(largest_, std::fabs(x));
+    }
+  }
+
+  // Is some triangle so near?
+  bool is_near(const Position& p, double distance) {
+    BoxTree::Box box{p, p};
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.low[i] -= distance;
+      box.high[i] += distance;
+    }
+    found_.clear();
+    tree_.query(box, found_);
+    return std::ranges::any_of(found_, [&](Index t) {
+      return distance_to_triangle(p, corners_of(surface_, t)) <= distance;
+    });
+  }
+
+  // -1 where roundings decide.
+  int of(const Position& p) {
+    found_.clear();
+    tree_.query({p, {HUGE_VAL, p[1], p[2]}}, found_);
+    int crossings = 0;
+    for (const Index t : found_) {
+      const int crossed = crosses(p, corners_of(surface_, t));
+      if (crossed < 0) return -1;
+      crossings += crossed;
+    }
+    return crossings % 2;
+  }
+
+ private:
+  // Does the ray along the first axis cross the triangle? -1: roundings decide.
+  int crosses(const Position& p, const Corners& c) const {
+    const double least = 64 * 0x1p-52 * largest_ * largest_;
+    double area[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Position &a = c[i], &b = c[(i + 1) % 3];
+      area[i] = (a[1] - p[1]) * (b[2] - p[2]) - (a[2] - p[2]) * (b[1] - p[1]);
+    }
+    const bool above = area[0] > least && area[1] > least && area[2] > least,
+               below = area[0] < -least && area[1] < -least && area[2] < -least;
+    const bool aside = std::ranges::any_of(area, [&](double x) { return x > least; }) &&
+                       std::ranges::any_of(area, [&](double x) { return x < -least; });
+    if (aside) return 0;
+    if (!above && !below) return -1;
+    const double all = area[0] + area[1] + area[2];
+    const double x = (area[1] * c[0][0] + area[2] * c[1][0] + area[0] * c[2][0]) / all;
+    return x > p[0] ? 1 : 0;  // p is far from the triangle
+  }
+
+  const Polyhedron& surface_;
+  const BoxTree tree_;
+  double largest_ = 0;
+  std::vector<Index> found_;
+};
+
+// What is farther than the envelope from both surfaces is on the same side of both, part by part:
+// asked in cells of space, of which those near a surface are divided.
+class Sides {
+ public:
+  Sides(const Polyhedron& input, const Polyhedron& own, double allowed)
+      : input_(input), own_(own), allowed_(allowed) {
+    Box box = box_of(input.vertices);
+    for (const Position& p : own.vertices) box.add(p);
+    half_ = box.diagonal() / 2;
+    for (std::size_t i = 0; i < 3; ++i) centre_[i] = box.low[i] / 2 + box.high[i] / 2;
+  }
+
+  OracleReport run(int exponent) {
+    constexpr std::size_t kMostCells = 200'000;
+    std::vector<Position> cells = {centre_}, near;
+    for (;;) {
+      near.clear();
+      for (const Position& cell : cells) {
+        const double reach = allowed_ * 1.01 + std::sqrt(3.0) * half_;
+        if (input_.is_near(cell, reach) || own_.is_near(cell, reach)) {
+          near.push_back(cell);
+        } else {
+          compare(cell, exponent);
+        }
+      }
+      if (near.empty() || 8 * near.size() > kMostCells || half_ < allowed_ / 8) break;
+      half_ /= 2;
+      cells.clear();
+      for (const Position& cell : near) {
+        for (unsigned corner = 0; corner < 8; ++corner) {
+          Position part = cell;
+          for (std::size_t i = 0; i < 3; ++i) part[i] += (corner >> i & 1U) != 0 ? half_ : -half_;
+          cells.push_back(part);
+        }
+      }
+    }
+    if (report_.checked == 0) {
+      report_.checked = 1;
+      report_.notes.emplace_back(
+          "no part of space is farther than the envelope from both surfaces");
+    }
+    report_.figures.emplace_back("thinner parts are not told apart",
+                                 2 * (allowed_ + 2 * std::sqrt(3.0) * half_));
+    return std::move(report_);
+  }
+
+ private:
+  // Any point of a cell will do: the surfaces are far.
+  void compare(const Position& cell, int exponent) {
+    for (int attempt = 0; attempt < 8; ++attempt) {
+      Position p = cell;
+      for (std::size_t i = 0; i < 3; ++i) {
+        p[i] += half_ * (0.37 * attempt / 8 - 0.11 * static_cast<double>(i) * attempt / 8);
+      }
+      const int given = input_.of(p), made = own_.of(p);
+      if (given < 0 || made < 0) continue;
+      ++report_.checked;
+      if (given == made) return;
+      report_.fail((given == 1 ? "the input has volume that the mesh has not"
+                               : "the mesh has volume that the input has not") +
+                   place_name(p, exponent));
+      return;
+    }
+  }
+
+  Parity input_, own_;
+  double allowed_, half_ = 0;
+  Position centre_{};
+  OracleReport report_{"envelope-sides", "cells of space"};
+};
+
 // Of surfaces that are oriented outwards.
 OracleReport check_volumes(const Polyhedron& input, const Polyhedron& own, double allowed) {
   OracleReport report("envelope-volume", "volumes");
@@ -316,8 +449,9 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   const int exponent = ordinary_exponent(given, own);
   if (std::string why = turn_outwards(given); !why.empty()) return why;
   const double diagonal = box_of(given.vertices).diagonal(), allowed = share * diagonal;
-  for (OracleReport oracle : {check_distances(given, own, allowed, exponent, report.deviation),
-                              check_volumes(given, own, allowed)}) {
+  for (OracleReport oracle :
+       {check_distances(given, own, allowed, exponent, report.deviation),
+        check_volumes(given, own, allowed), Sides(given, own, allowed).run(exponent)}) {
     if (exponent != 0) {
       oracle.notes.push_back("lengths are in units of 2^" + std::to_string(exponent));
     }

@@ -2,9 +2,10 @@
 //
 // Laws: the mesh, judged by the other oracles against its own boundary, passes all of them (so it
 // is a complex of positive tetrahedra that fill a valid surface); no point of that surface is
-// farther from the input than the envelope, nor a point of the input from it; and the volumes
-// differ by at most what surfaces so near to each other can enclose, so that a thin crust around
-// the input does not pass for the solid.
+// farther from the input than the envelope, nor a point of the input from it; the volumes differ by
+// at most what surfaces so near to each other can enclose; and what is farther from both surfaces
+// than the envelope is on the same side of both, in every part of space that is thicker than the
+// report says. So no crust around the input passes for the solid.
 #pragma once
 
 #include <string>

@@ -29,6 +29,7 @@ MeshFile cube_mesh() {
   return mesh;
 }
 
+constexpr double kAllowedOfSkins = 0.02;
 constexpr double kShare = 0.01;
 const double kAllowed = kShare * std::sqrt(3.0);
 
@@ -207,6 +208,57 @@ TEST(Envelope, ACrustIsNoSolid) {
     EXPECT_GE(near.deviation, std::ldexp(0.9 * kAllowed, exponent));
     EXPECT_LE(near.deviation, std::ldexp(1.01 * kAllowed, exponent));
   }
+}
+
+// Skins around a core: the slack of the volumes grows with every skin.
+TEST(Envelope, OfACoreInSkinsHasTheCore) {
+  constexpr int kSkins = 12;
+  constexpr double kStep = 0.6 * kAllowedOfSkins;
+  const auto radius = [](int layer) { return 1 + kStep * layer; };
+  Polyhedron input;
+  MeshFile mesh;
+  // Layer 0 is the core; skins are between layers 1 and 2, 3 and 4, ...
+  for (int layer = 0; layer <= 2 * kSkins; ++layer) {
+    const auto first = static_cast<Index>(input.vertices.size());
+    for (Position p : cube().vertices) {
+      for (double& x : p) x = (2 * x - 1) * radius(layer);
+      input.vertices.push_back(p);
+    }
+    for (auto triangle : cube().triangles) {
+      for (Index& v : triangle) v += first;
+      if (layer % 2 == 1) std::swap(triangle[0], triangle[1]);
+      input.triangles.push_back(triangle);
+    }
+  }
+  mesh.vertices.assign(input.vertices.begin() + 8, input.vertices.end());
+  for (int skin = 0; skin < kSkins; ++skin) {
+    for (auto corners : cube().triangles) {
+      std::ranges::sort(corners);  // so that neighbours agree in their diagonals
+      const Index low = 16 * static_cast<Index>(skin), high = low + 8;
+      const auto [a, b, c] = corners;
+      mesh.tetrahedra.push_back({low + a, low + b, low + c, high + c});
+      mesh.tetrahedra.push_back({low + a, low + b, high + b, high + c});
+      mesh.tetrahedra.push_back({low + a, high + a, high + b, high + c});
+    }
+  }
+  for (Tet& tet : mesh.tetrahedra) {
+    ExactPoints points;
+    points.assign(mesh.vertices);
+    if (exact::orient3d(points, tet[0], tet[1], tet[2], tet[3]) < 0) std::swap(tet[0], tet[1]);
+  }
+  const double share = kAllowedOfSkins / (2 * std::sqrt(3.0) * radius(2 * kSkins));
+  VerifyReport report;
+  EXPECT_EQ(verify_envelope(input, mesh, share, {}, report), "");
+  EXPECT_EQ(failed_first(report), "envelope-sides") << to_text(report);
+  // With the core all is well.
+  const auto first = static_cast<Index>(mesh.vertices.size());
+  for (int v = 0; v < 8; ++v) mesh.vertices.push_back(input.vertices[static_cast<std::size_t>(v)]);
+  for (Tet tet : cube_mesh().tetrahedra) {
+    for (Index& v : tet) v += first;
+    mesh.tetrahedra.push_back(tet);
+  }
+  EXPECT_EQ(verify_envelope(input, mesh, share, {}, report), "");
+  EXPECT_EQ(failed_first(report), "") << to_text(report);
 }
 
 }  // namespace
