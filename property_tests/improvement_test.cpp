@@ -122,6 +122,41 @@ TEST(Improvement, OfABallTakesLessAndIsRounder) {
   EXPECT_GT(improved.min_dihedral, 12);
 }
 
+// A long edge takes the place of one that was as long, there and once.
+TEST(Improvement, LongEdgesStayInTheirPlace) {
+  const auto tetrahedron = [](std::vector<Position>& points, Position at, double size) {
+    const auto first = static_cast<Index>(points.size());
+    points.push_back(at);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      points.push_back(at);
+      points.back()[axis] += size;
+    }
+    return ExactRecord::Tet{{first, first + 1, first + 2, first + 3}, true};
+  };
+  std::vector<Position> positions;
+  const ExactRecord::Tet large = tetrahedron(positions, {0, 0, 0}, 10),
+                         moved = tetrahedron(positions, {0.1, 0.1, 0.1}, 9.9),
+                         again = tetrahedron(positions, {0.2, 0.2, 0.2}, 9.8),
+                         elsewhere = tetrahedron(positions, {100, 0, 0}, 9),
+                         small = tetrahedron(positions, {100, 0, 0}, 1),
+                         other = tetrahedron(positions, {3, 3, 3}, 1);
+  ExactPoints points;
+  ASSERT_EQ(points.assign(positions), "");
+  const auto judged = [&](const std::vector<ExactRecord::Tet>& after) {
+    ExactRecord record;
+    record.unrepaired = {large, small, other};
+    record.final = after;
+    Promise promise;
+    promise.max_edge = 2;
+    return check_improvement(record, points, promise).passed();
+  };
+  EXPECT_TRUE(judged({large, small, other}));
+  EXPECT_TRUE(judged({moved, small, other}));
+  EXPECT_TRUE(judged({small, other}));
+  EXPECT_FALSE(judged({elsewhere, other}));
+  EXPECT_FALSE(judged({moved, again, small}));
+}
+
 struct Lie {
   const char* what;
   const char* oracle;

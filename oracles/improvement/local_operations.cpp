@@ -1,10 +1,14 @@
 #include "oracles/improvement/local_operations.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
+#include <tuple>
 
+#include "oracles/base/box_tree.h"
 #include "oracles/base/edge_key.h"
+#include "oracles/base/union_find.h"
 #include "oracles/mesh/angles.h"
 #include "oracles/record/record_origin.h"
 #include "oracles/surface/input_surface.h"
@@ -175,14 +179,14 @@ class Improvement {
                    " degrees and lacks " + std::to_string(bad.angles.dihedral) +
                    " of being flat, and nothing near was as bad before");
     }
+    count();
     if (longest_ > 0) {
-      check_edges("--max-edge", [&](Index v, Index w) {
-        return exact::distance(doubles_, v, w) > longest_ * (1 + 1e-9);
-      });
+      check_edges("--max-edge",
+                  [&](Index v, Index w) { return exact::distance(doubles_, v, w) / longest_; });
     }
     if (!sizes_.empty()) {
       check_edges("--size-field", [&](Index v, Index w) {
-        return sizes_.excess(doubles_.nearest(v), doubles_.nearest(w)) > EdgeSizes::kMost;
+        return sizes_.excess(doubles_.nearest(v), doubles_.nearest(w));
       });
     }
     return std::move(report_);
@@ -192,7 +196,7 @@ class Improvement {
   struct Bad {
     Tet tet;
     WorstAngles angles;
-    WorstAngles there_before{};  // the worst near its place, once needed
+    WorstAngles there_before{};  // the worst near its place, once that is asked
   };
 
   static WorstAngles worse(const WorstAngles& a, const WorstAngles& b) {
@@ -200,10 +204,6 @@ class Improvement {
   }
   bool counts(const ExactRecord::Tet& tet) const { return all_ || tet.inside; }
   bool reaches(const WorstAngles& angles, const WorstAngles& least) const {
-    constexpr double kSlack = 1 - 1e-6;
-    // Degrees: which of two tetrahedra that are flat except for roundings is flatter, doubles do
-    // not tell.
-    constexpr double kRoundings = 1e-12;
     return angles.face >= std::min(least.face, goal_.face) * kSlack &&
            angles.dihedral >= std::min(least.dihedral, goal_.dihedral) * kSlack - kRoundings;
   }
@@ -233,11 +233,13 @@ class Improvement {
       ++report_.checked;
       const WorstAngles angles = angles_of(tet);
       after_ = worse(after_, angles);
-      if (!reaches(angles, goal_)) bad_.push_back({tet.vertices, angles});
+      if (reaches(angles, goal_)) continue;
+      bad_.push_back({tet.vertices, angles});
+      bad_after_.push_back(tet.vertices);
     }
   }
 
-  // A bad tetrahedron must be near one that was as bad before.
+  // A bad tetrahedron has to be near one that was as bad before.
   void explain() {
     int edges = 0;
     for (;; ++edges) {
@@ -253,8 +255,7 @@ class Improvement {
   }
 
   // Where all vertices of a neighbourhood have moved, none of their names leads to the mesh before:
-  // then what was at the bad tetrahedron's place shows what was near. The number of these is
-  // reported.
+  // then what was where the bad tetrahedron is now tells what was near. How many need this is told.
   void explain_by_place() {
     std::vector<BoxTree::Box> boxes;
     boxes.reserve(bad_.size());
@@ -275,35 +276,41 @@ class Improvement {
   }
 
   // What is left may be beside an edge of the surface that the mesh before did not have. How many,
-  // how bad and how far from such edges is reported.
+  // how bad and how far from such edges is told.
   void excuse() {
     std::vector<std::uint8_t> near(doubles_.size());
     for (const Index v : returned_) near[v] = 1;
     std::size_t excused = 0;
     WorstAngles worst;
-    int edges = 0;
-    for (;; ++edges) {
-      excused += std::erase_if(bad_, [&](const Bad& bad) {
-        const bool is_near =
-            std::any_of(bad.tet.begin(), bad.tet.end(), [&](Index v) { return near[v] != 0; });
+    int farthest = 0;
+    for (int edges = 0;; ++edges) {
+      const std::size_t here = std::erase_if(bad_, [&](const Bad& bad) {
+        const bool is_near = std::ranges::any_of(bad.tet, [&](Index v) { return near[v] != 0; });
         if (is_near) worst = worse(worst, bad.angles);
         return is_near;
       });
-      if (bad_.empty() || edges == kOperationsReach) break;
+      if (here > 0) farthest = edges;
+      excused += here;
+      if (edges == kOperationsReach) break;
       const std::vector<std::uint8_t> before = near;
       for (const ExactRecord::Tet& tet : record_.final) {
-        const bool reached = std::any_of(tet.vertices.begin(), tet.vertices.end(),
-                                         [&](Index v) { return before[v] != 0; });
+        const bool reached =
+            std::ranges::any_of(tet.vertices, [&](Index v) { return before[v] != 0; });
         if (!reached || !counts(tet)) continue;
         for (const Index v : tet.vertices) near[v] = 1;
       }
     }
+    excused_ = near;
     report_.figures.emplace_back("below the goals beside edges that came back",
                                  static_cast<double>(excused));
     if (excused == 0) return;
     report_.figures.emplace_back("smallest face angle there", worst.face);
     report_.figures.emplace_back("flattest dihedral angle there", worst.dihedral);
-    report_.figures.emplace_back("edges from there", edges);
+    report_.figures.emplace_back("edges from there", farthest);
+  }
+
+  bool is_excused(const Tet& tet) const {
+    return !excused_.empty() && std::ranges::any_of(tet, [&](Index v) { return excused_[v] != 0; });
   }
 
   // Passes the worst angles known at every vertex on to its neighbours.
@@ -319,34 +326,167 @@ class Improvement {
     }
   }
 
-  // A vertex that is moved becomes another point, so that an edge to it is new by name. Such an
-  // edge may be as long as the longest was; their number is reported.
-  template <class IsLong>
-  void check_edges(const std::string& option, const IsLong& is_long) {
-    const std::vector<std::uint64_t> before = long_edges(record_.unrepaired, is_long),
-                                     after = long_edges(record_.final, is_long);
-    std::vector<std::uint64_t> fresh;
-    std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
-                        std::back_inserter(fresh));
-    std::vector<std::uint8_t> was_there(doubles_.size());
-    for (const ExactRecord::Tet& tet : record_.unrepaired) {
-      for (const Index v : tet.vertices) was_there[v] = 1;
+  // How many are how bad: in all, and in each part of the mesh that is within reach of what is bad
+  // now, the k-th worst angle is at least half of what the k-th worst was, or of the goal. One
+  // operation may trade a few angles that are nearly as bad for one that was worst. Nor are there
+  // more than twice as many tetrahedra; a few may be new where there are few.
+  void count() {
+    std::uint64_t inside_before = 0;
+    for (const ExactRecord::Tet& tet : record_.unrepaired) inside_before += counts(tet) ? 1 : 0;
+    report_.figures.emplace_back("counted before", static_cast<double>(inside_before));
+    if (report_.checked > 2 * inside_before + kFew) {
+      report_.fail("there are " + std::to_string(report_.checked) + " tetrahedra, and were " +
+                   std::to_string(inside_before));
     }
-    double longest_before = 0;
-    for (const std::uint64_t edge : before) longest_before = std::max(longest_before, length(edge));
-    std::uint64_t moved = 0;
-    for (const std::uint64_t edge : fresh) {
-      const auto [v, w] = ends(edge);
-      if ((was_there[v] == 0 || was_there[w] == 0) && length(edge) <= longest_before) {
-        ++moved;
+    const std::vector<Index> part = parts();
+    for (const auto& [member, goal, name] :
+         {std::tuple(&WorstAngles::face, goal_.face, "face"),
+          std::tuple(&WorstAngles::dihedral, goal_.dihedral, "dihedral")}) {
+      const std::vector<Graded> was = graded(record_.unrepaired, part, member, goal),
+                                is = graded(record_.final, part, member, goal);
+      report_.figures.emplace_back(std::string(name) + " angles below the goal before",
+                                   static_cast<double>(was.size()));
+      report_.figures.emplace_back(std::string(name) + " angles below the goal after",
+                                   static_cast<double>(is.size()));
+      compare(was, is, goal, name);
+    }
+  }
+
+  // Of each vertex within reach of a tetrahedron that is bad now the part of the mesh that it is
+  // in; of others kNone.
+  std::vector<Index> parts() const {
+    UnionFind united(doubles_.size());
+    std::vector<std::uint8_t> ring(doubles_.size(), kFar);
+    for (const Tet& tet : bad_after_) {
+      for (const Index v : tet) ring[v] = 0;
+    }
+    for (std::uint8_t edges = 1; edges <= kOperationsReach; ++edges) {
+      for (const auto* mesh : {&record_.unrepaired, &record_.final}) {
+        for (const ExactRecord::Tet& tet : *mesh) {
+          const bool touched =
+              std::ranges::any_of(tet.vertices, [&](Index v) { return ring[v] < edges; });
+          if (!touched || !counts(tet)) continue;
+          for (const Index v : tet.vertices) {
+            ring[v] = std::min(ring[v], edges);
+            united.unite(v, tet.vertices[0]);
+          }
+        }
+      }
+    }
+    std::vector<Index> part(doubles_.size(), kNone);
+    for (Index v = 0; v < part.size(); ++v) {
+      if (ring[v] != kFar) part[v] = united.find(v);
+    }
+    return part;
+  }
+
+  struct Graded {
+    Index part;
+    double angle;
+    auto operator<=>(const Graded&) const = default;
+  };
+
+  // The angles below the goal, the worst of each part first. Beside edges that came back anything
+  // may be bad.
+  std::vector<Graded> graded(const std::vector<ExactRecord::Tet>& tets,
+                             const std::vector<Index>& part, double WorstAngles::*member,
+                             double goal) const {
+    std::vector<Graded> list;
+    for (const ExactRecord::Tet& tet : tets) {
+      if (!counts(tet)) continue;
+      const double angle = angles_of(tet).*member;
+      if (angle >= goal * kSlack) continue;
+      const auto near =
+          std::ranges::find_if(tet.vertices, [&](Index v) { return part[v] != kNone; });
+      if (&tets == &record_.final && is_excused(tet.vertices)) continue;
+      list.push_back({near == tet.vertices.end() ? kNone : part[*near], angle});
+    }
+    std::ranges::sort(list);
+    return list;
+  }
+
+  void compare(std::vector<Graded> was, std::vector<Graded> is, double goal, const char* name) {
+    compare_parts(was, is, goal, name);
+    for (auto* list : {&was, &is}) {
+      for (Graded& g : *list) g.part = kAll;
+      std::ranges::sort(*list);
+    }
+    compare_parts(was, is, goal, name);
+  }
+
+  void compare_parts(const std::vector<Graded>& was, const std::vector<Graded>& is, double goal,
+                     const char* name) {
+    for (std::size_t i = 0, first = 0; i < is.size(); ++i) {
+      if (is[i].part != is[first].part) first = i;
+      const auto begin = std::ranges::lower_bound(was, is[i].part, {}, &Graded::part);
+      // Where all vertices have moved, nothing that was there before has a name in this part.
+      const bool named = begin != was.end() && begin->part == is[i].part;
+      if (!named && is[i].part != kAll) continue;
+      const std::size_t k = i - first;
+      const std::size_t there = k < static_cast<std::size_t>(was.end() - begin) &&
+                                begin[static_cast<std::ptrdiff_t>(k)].part == is[i].part;
+      const double least = there != 0 ? begin[static_cast<std::ptrdiff_t>(k)].angle : goal;
+      if (is[i].angle >= kTraded * least - kRoundings) continue;
+      report_.fail("the " + std::string(name) + " angle of rank " + std::to_string(k + 1) + " is " +
+                   std::to_string(is[i].angle) + " degrees, and was " + std::to_string(least));
+    }
+  }
+
+  // A vertex that is moved becomes another point, so that an edge to it is new by name. A new edge
+  // that is too long takes the place of one that was no less so: its middle is within the length of
+  // that one from its middle. Each may be replaced once.
+  struct Long {
+    std::uint64_t edge;
+    double excess;  // over what is allowed
+  };
+
+  template <class Excess>
+  void check_edges(const std::string& option, const Excess& excess) {
+    const std::vector<Long> before = long_edges(record_.unrepaired, excess),
+                            after = long_edges(record_.final, excess);
+    std::vector<Long> fresh, lost;
+    std::ranges::set_difference(after, before, std::back_inserter(fresh), {}, &Long::edge,
+                                &Long::edge);
+    std::ranges::set_difference(before, after, std::back_inserter(lost), {}, &Long::edge,
+                                &Long::edge);
+    std::vector<BoxTree::Box> boxes;
+    for (const Long& edge : lost) {
+      const Position at = middle(edge.edge);
+      const double reach = length(edge.edge);
+      boxes.push_back({at, at});
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        boxes.back().low[axis] -= reach;
+        boxes.back().high[axis] += reach;
+      }
+    }
+    const BoxTree places(std::move(boxes));
+    std::vector<std::uint8_t> replaced(lost.size());
+    // The longest first; it takes the shortest that will do.
+    std::ranges::stable_sort(fresh, std::greater{}, &Long::excess);
+    std::vector<Index> near;
+    for (const Long& edge : fresh) {
+      near.clear();
+      const Position at = middle(edge.edge);
+      places.query({at, at}, near);
+      Index best = kNone;
+      for (const Index n : near) {
+        if (replaced[n] != 0 || lost[n].excess * kLongSlack < edge.excess) continue;
+        if (best == kNone || std::pair(lost[n].excess, n) < std::pair(lost[best].excess, best)) {
+          best = n;
+        }
+      }
+      if (best != kNone) {
+        replaced[best] = 1;
         continue;
       }
-      report_.fail("edge (" + std::to_string(v) + " " + std::to_string(w) + ") is new and above " +
-                   option);
+      const auto [v, w] = ends(edge.edge);
+      report_.fail("edge (" + std::to_string(v) + " " + std::to_string(w) + ") is new and " +
+                   std::to_string(edge.excess) + " times what " + option +
+                   " allows, and no edge there was so long before");
     }
     report_.figures.emplace_back("edges above " + option + ", as before",
                                  static_cast<double>(after.size() - fresh.size()));
-    report_.figures.emplace_back("to vertices that moved", static_cast<double>(moved));
+    report_.figures.emplace_back("to vertices that moved", static_cast<double>(fresh.size()));
   }
 
   static std::pair<Index, Index> ends(std::uint64_t edge) {
@@ -356,27 +496,43 @@ class Improvement {
     const auto [v, w] = ends(edge);
     return exact::distance(doubles_, v, w);
   }
+  Position middle(std::uint64_t edge) const {
+    const auto [v, w] = ends(edge);
+    const Position &a = doubles_.nearest(v), &b = doubles_.nearest(w);
+    return {a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2, a[2] / 2 + b[2] / 2};
+  }
 
   // Once each, ascending.
-  template <class IsLong>
-  std::vector<std::uint64_t> long_edges(const std::vector<ExactRecord::Tet>& tets,
-                                        const IsLong& is_long) const {
+  template <class Excess>
+  std::vector<Long> long_edges(const std::vector<ExactRecord::Tet>& tets,
+                               const Excess& excess) const {
     std::vector<std::uint64_t> edges;
     for (const ExactRecord::Tet& tet : tets) {
       if (!counts(tet)) continue;
       for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < i; ++j) {
-          const auto [v, w] = std::minmax(tet.vertices[i], tet.vertices[j]);
-          if (!is_long(v, w)) continue;
-          edges.push_back(directed_key(v, w));
-        }
+        for (int j = 0; j < i; ++j) edges.push_back(edge_key(tet.vertices[i], tet.vertices[j]));
       }
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
+    std::vector<Long> list;
+    for (const std::uint64_t edge : edges) {
+      const auto [v, w] = ends(edge);
+      const double above = excess(v, w);
+      if (above > kLongSlack) list.push_back({edge, above});
+    }
+    return list;
   }
 
+  static constexpr std::uint8_t kFar = 255;
+  static constexpr Index kAll = kNone - 1;  // no vertex: the part that is all of the mesh
+  static constexpr double kTraded = 0.5;
+  static constexpr std::uint64_t kFew = 100;  // tetrahedra
+  static constexpr double kSlack = 1 - 1e-6;  // of angles, computed in doubles
+  // Degrees: which of two tetrahedra that are flat but for roundings is flatter, doubles do not
+  // tell.
+  static constexpr double kRoundings = 1e-12;
+  static constexpr double kLongSlack = 1 + 1e-9;
   const ExactRecord& record_;
   const ExactPoints doubles_;           // the nearest ones
   std::optional<ExactPoints> written_;  // in given coordinates, where these have another origin
@@ -387,7 +543,9 @@ class Improvement {
   const std::vector<Index>& returned_;
   std::vector<WorstAngles> worst_;  // per point, of the tetrahedra there before
   WorstAngles before_, after_;
-  std::vector<Bad> bad_;
+  std::vector<Bad> bad_;               // those that nothing explains so far
+  std::vector<Tet> bad_after_;         // all of them
+  std::vector<std::uint8_t> excused_;  // vertices near edges that came back
   std::uint64_t defects_ = 0;
   OracleReport report_{"improvement", "tetrahedra"};
 };

@@ -54,7 +54,7 @@ std::size_t some(const std::vector<ExactRecord::Tet>& tets, bool inside) {
   return static_cast<std::size_t>(found - tets.begin());
 }
 
-constexpr std::array<double, 4> kMiddle = {0.25, 0.25, 0.25, 0.25},
+constexpr std::array<double, 4> kMiddle = {0.25, 0.25, 0.25, 0.25}, kBad = {0.3, 0.3, 0.3, 0.1},
                                 kNearFace = {0.334, 0.333, 0.332999999, 0.000000001};
 
 const Lie kImproved[] = {
@@ -120,6 +120,14 @@ const Lie kImproved[] = {
      [](Told& t) {
        improve(t, Region::hull);
        split(t.record, t.record.final, some(t.record.final, false), kNearFace);
+     }},
+    {"many tetrahedra are bad where some were", "improvement",
+     [](Told& t) {
+       improve(t);
+       const std::size_t count = t.record.final.size();
+       for (std::size_t n = 0; n < count; ++n) {
+         if (t.record.final[n].inside) split(t.record, t.record.final, n, kBad);
+       }
      }},
     {"an improvement that was not asked for", "repairs",
      [](Told& t) {
