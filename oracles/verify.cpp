@@ -3,130 +3,140 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
+#include <memory>
 #include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "oracles/base/parallel.h"
+#include "oracles/plan.h"
 #include "oracles/record/ordinary_units.h"
 #include "oracles/record/record_origin.h"
 #include "oracles/surface/input_digits.h"
-#include "oracles/verdict/verdict.h"
-#include "oracles/verification.h"
 
 namespace tetproof::oracles {
 namespace {
 
+using delmesher::ExactRecord;
+
 // What alone is asked about although more was promised.
 std::string scope_of(const VerifyOptions& options, bool recorded) {
-  if (!recorded || options.promised.task != Task::mesh) return {};
+  if (options.promised.task != Task::mesh) return {};
+  if (!recorded) return options.promised.of_record.empty() ? "" : "the mesh as written";
   if (options.stage == Stage::final) return "the final mesh";
   const bool more = options.stage == Stage::refined && !options.promised.approximate;
   return more ? "the refined mesh" : "";
 }
 
-// Runs all parts in the order of their turns. `largest`: coordinate of the input as given, where it
-// has been moved; else 0.
-std::string run_parts(const Polyhedron& input, const MeshFile& mesh,
-                      const delmesher::ExactRecord* exact, const VerifyOptions& options,
-                      double largest, const Expendable& expendable, VerifyReport& report) {
-  SharedData shared(input, exact, options.promised, expendable);
-  shared.largest_given = largest;
-  const std::vector<Verification::Part> list = Verification::parts(exact, options.stage);
-  std::vector<Verification> parts(list.size(), {input, mesh, exact, options, shared});
-  std::vector<std::size_t> order(list.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&list](std::size_t n) { return list[n].turn; });
-  for (const Verification::Part& part : list) {
-    for (const Bulk bulk : part.needs) shared.need(bulk);
-    for (const Bulk bulk : part.tells) shared.need(bulk);
-  }
-  std::vector<std::string> why(list.size());
-  std::atomic<bool> no_solid = false;
-  run_tasks(options.threads, order.size(), [&](std::size_t turn) {
-    if (no_solid) return;
-    const std::size_t n = order[turn];
-    why[n] = (parts[n].*list[n].check)();
-    if (!why[n].empty()) no_solid = true;
-    for (const Bulk bulk : list[n].needs) shared.done_with(bulk);
-  });
-  for (const std::string& reason : why) {
-    if (!reason.empty()) return reason;
-  }
-  double ulp = 0, diagonal = 0;
-  for (Verification& part : parts) part.move_to(report, ulp, diagonal);
-  report.scope = scope_of(options, exact != nullptr);
-  conclude(ulp, diagonal, report);
-  return {};
+// What is verified: as given, or copies of it where its numbers are ordinary.
+struct Frame {
+  const Polyhedron* input;
+  const MeshFile* mesh;
+  const ExactRecord* exact;
+  VerifyOptions options;
+  Expendable expendable;
+  double largest_given = 0;  // coordinate of the input, if it has been moved
+  std::optional<BesideOrigin> moved = {};
+  std::optional<InOrdinaryUnits> scaled = {};
+  bool text_skipped = false;  // of the record, as it is in the units given
+};
+
+// False if the record cannot be moved: then there is nothing to ask.
+bool move_beside_origin(Frame& frame, VerifyReport& report) {
+  frame.moved = {*frame.input, *frame.mesh, *frame.exact, frame.options.promised};
+  report.oracles.push_back(move_to_origin(*frame.moved));
+  if (frame.options.progress) frame.options.progress(report.oracles.back());
+  frame.input = &frame.moved->input;
+  frame.mesh = &frame.moved->mesh;
+  frame.exact = &frame.moved->record;
+  frame.options.promised = frame.moved->promise;
+  frame.expendable = {&frame.moved->mesh, &frame.moved->record};
+  frame.largest_given = frame.moved->largest;
+  return report.oracles.back().passed();
 }
 
-// Of which every deviation is in input units again; other figures of lengths are not.
-std::string verify_scaled(InOrdinaryUnits& task, VerifyOptions options, double largest,
-                          VerifyReport& report) {
-  options.promised = task.promise;
-  const bool text_skipped = task.record.has_value() && !options.sidecar.empty();
-  options.sidecar.clear();  // its text is in the other units
-  delmesher::ExactRecord* record = task.record ? &*task.record : nullptr;
-  std::string refusal =
-      run_parts(task.input, task.mesh, record, options, std::ldexp(largest, -task.exponent),
-                {&task.mesh, record}, report);
-  report.deviation = std::ldexp(report.deviation, task.exponent);
-  report.slab = std::ldexp(report.slab, task.exponent);
+void put_in_ordinary_units(Frame& frame) {
+  frame.scaled = in_ordinary_units(*frame.input, *frame.mesh, frame.exact, frame.options.promised);
+  if (!frame.scaled) return;
+  InOrdinaryUnits& scaled = *frame.scaled;
+  frame.input = &scaled.input;
+  frame.mesh = &scaled.mesh;
+  frame.exact = scaled.record ? &*scaled.record : nullptr;
+  frame.options.promised = scaled.promise;
+  frame.expendable = {&scaled.mesh, scaled.record ? &*scaled.record : nullptr};
+  frame.largest_given = std::ldexp(frame.largest_given, -scaled.exponent);
+  frame.text_skipped = frame.exact != nullptr && !frame.options.sidecar.empty();
+  frame.options.sidecar.clear();
+}
+
+// Every deviation; other figures of lengths stay.
+void put_in_given_units(const Frame& frame, VerifyReport& report) {
+  if (!frame.scaled) return;
+  const int exponent = frame.scaled->exponent;
+  report.deviation = std::ldexp(report.deviation, exponent);
+  report.slab = std::ldexp(report.slab, exponent);
   for (OracleReport& oracle : report.oracles) {
-    oracle.notes.push_back("lengths are in units of 2^" + std::to_string(task.exponent));
-    if (text_skipped && oracle.name.ends_with("second-kernel")) {
+    oracle.notes.push_back("lengths are in units of 2^" + std::to_string(exponent));
+    if (frame.text_skipped && oracle.name.ends_with("second-kernel")) {
       oracle.notes.push_back("the text of the points was not read a second time");
     }
   }
-  return refusal;
-}
-
-std::string verify_in_units(const Polyhedron& input, const MeshFile& mesh,
-                            const delmesher::ExactRecord* exact, const VerifyOptions& options,
-                            double largest, const Expendable& expendable, VerifyReport& report) {
-  if (auto scaled = in_ordinary_units(input, mesh, exact, options.promised)) {
-    return verify_scaled(*scaled, options, largest, report);
-  }
-  return run_parts(input, mesh, exact, options, largest, expendable, report);
-}
-
-std::string verify_beside_origin(BesideOrigin task, VerifyOptions options, VerifyReport& report) {
-  OracleReport origin = move_to_origin(task);
-  if (options.progress) options.progress(origin);
-  const bool exact = origin.passed();
-  report.oracles.push_back(std::move(origin));
-  if (!exact) {
-    conclude(0, 0, report);
-    return {};
-  }
-  options.promised = task.promise;
-  return verify_in_units(task.input, task.mesh, &task.record, options, task.largest,
-                         {&task.mesh, &task.record}, report);
-}
-
-std::string verify_as_given(const Polyhedron& input, const MeshFile& mesh,
-                            const delmesher::ExactRecord* exact, const VerifyOptions& options,
-                            const Expendable& expendable, VerifyReport& report) {
-  VerifyOptions known = options;
-  known.promised.automatic_planar = automatic_planar_share(input);
-  report = {};
-  report.planar_share = known.promised.planar_share();
-  if (exact != nullptr && names_origin(*exact)) {
-    return verify_beside_origin({input, mesh, *exact, known.promised}, known, report);
-  }
-  return verify_in_units(input, mesh, exact, known, 0, expendable, report);
 }
 
 }  // namespace
 
-std::string verify(const Polyhedron& input, const MeshFile& mesh,
-                   const delmesher::ExactRecord* exact, const VerifyOptions& options,
-                   VerifyReport& report) {
-  return verify_as_given(input, mesh, exact, options, {}, report);
-}
+// Frames the task, runs the steps of the plan, and concludes.
+std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
+                   const VerifyOptions& options, VerifyReport& report,
+                   const Expendable& expendable) {
+  Frame frame{&input, &mesh, exact, options, expendable};
+  frame.options.promised.automatic_planar = automatic_planar_share(input);
+  report = {};
+  report.planar_share = frame.options.promised.planar_share();
+  if (exact != nullptr && names_origin(*exact) && !move_beside_origin(frame, report)) {
+    conclude(0, 0, report);
+    return {};
+  }
+  put_in_ordinary_units(frame);
 
-std::string verify_and_discard(const Polyhedron& input, MeshFile& mesh,
-                               delmesher::ExactRecord* exact, const VerifyOptions& options,
-                               VerifyReport& report) {
-  return verify_as_given(input, mesh, exact, options, {&mesh, exact}, report);
+  std::unique_ptr<SharedData> shared;
+  Memory memory(frame.expendable, [&shared] { shared->forget_refined(); });
+  shared = std::make_unique<SharedData>(*frame.input, frame.exact, frame.options.promised, memory);
+  const Subject subject{*frame.input, *frame.mesh, frame.exact,        frame.options,
+                        *shared,      memory,      frame.largest_given};
+  const std::vector<PlannedStep> planned = plan(frame.exact, options.stage);
+  std::vector<std::unique_ptr<Step>> steps;
+  for (const PlannedStep& step : planned) {
+    steps.push_back(step.start(subject));
+    memory.need(step.needs);
+    memory.need(step.frees);
+  }
+  std::vector<std::string> why(planned.size());
+  std::atomic<bool> no_solid = false;
+  run_tasks(options.threads, planned.size(), [&](std::size_t n) {
+    if (no_solid) return;
+    why[n] = steps[n]->run();
+    if (!why[n].empty()) no_solid = true;
+    memory.done_with(planned[n].needs);
+  });
+
+  std::vector<std::size_t> order(planned.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t n) { return planned[n].reported; });
+  for (const std::size_t n : order) {
+    if (!why[n].empty()) return why[n];
+  }
+  double ulp = 0, diagonal = 0;
+  for (const std::size_t n : order) steps[n]->move_to(report, ulp, diagonal);
+  report.scope = scope_of(options, exact != nullptr);
+  if (exact == nullptr) {
+    std::ranges::copy(options.promised.of_record, std::back_inserter(report.unproven));
+  }
+  conclude(ulp, diagonal, report);
+  put_in_given_units(frame, report);
+  return {};
 }
 
 }  // namespace tetproof::oracles

@@ -146,7 +146,7 @@ void refuse_pipe(const std::string& path) {
 }
 
 // Empty on success, else why the input bounds no solid.
-std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
+std::string verify_mesh(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
   terminal.say("reading " + arguments.mesh);
   const Polyhedron input = read_surface(arguments.input);
@@ -166,12 +166,12 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   options.progress = [&](const OracleReport& oracle) {
     terminal.say(oracle.name + ": " + std::to_string(oracle.checked) + " " + oracle.checked_what);
   };
-  return verify_and_discard(input, mesh, arguments.exact.empty() ? nullptr : &record, options,
-                            report);
+  delmesher::ExactRecord* exact = arguments.exact.empty() ? nullptr : &record;
+  return verify(input, mesh, exact, options, report, {&mesh, exact});
 }
 
 // The same in the plane.
-std::string verify_plane_quietly(const Arguments& arguments, VerifyReport& report) {
+std::string verify_plane_mesh(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
   terminal.say("reading " + arguments.mesh);
   const delmesher::PlanarGraph graph = read_plane_graph(arguments.input);
@@ -187,7 +187,7 @@ std::string verify_plane_quietly(const Arguments& arguments, VerifyReport& repor
 }
 
 // The same for what was improved.
-std::string verify_improved_quietly(const Arguments& arguments, VerifyReport& report) {
+std::string verify_improved_mesh(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
   terminal.say("reading " + arguments.mesh);
   const MeshFile given = read_mesh(arguments.input), mesh = read_mesh(arguments.mesh);
@@ -226,9 +226,9 @@ std::string way_on(const Arguments& arguments, const VerifyReport& report) {
 int verify_files(const Arguments& arguments) {
   VerifyReport report;
   const Task task = arguments.options.promised.task;
-  const std::string why = task == Task::plane     ? verify_plane_quietly(arguments, report)
-                          : task == Task::improve ? verify_improved_quietly(arguments, report)
-                                                  : verify_quietly(arguments, report);
+  const std::string why = task == Task::plane     ? verify_plane_mesh(arguments, report)
+                          : task == Task::improve ? verify_improved_mesh(arguments, report)
+                                                  : verify_mesh(arguments, report);
   if (!why.empty()) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.input.c_str(), why.c_str());
     return kInvalid;

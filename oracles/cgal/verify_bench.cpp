@@ -97,7 +97,8 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
     last = now;
   };
   const auto written = static_cast<double>(mesh.tetrahedra.size());
-  verify_and_discard(input, mesh, exact_path != nullptr ? &record : nullptr, options, report);
+  delmesher::ExactRecord* exact = exact_path != nullptr ? &record : nullptr;
+  verify(input, mesh, exact, options, report, {&mesh, exact});
   const double all = seconds() - start;
   peak = std::max(peak, peak_since_last());
   std::printf("%-32s %8.3f s  %7.2f times CGAL's Delaunay\n", verdict_name(report.verdict), all,

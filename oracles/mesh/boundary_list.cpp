@@ -8,7 +8,7 @@ namespace tetproof::oracles {
 OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
                                  const InputSurface& surface, const ConformityResult& conformity,
                                  const std::vector<Face>& listed,
-                                 const std::vector<std::int32_t>& labels) {
+                                 const std::vector<std::int32_t>& labels, bool oriented) {
   OracleReport report("boundary-list", "listed triangles");
   const auto sorted = [](Face face) {
     std::sort(face.begin(), face.end());
@@ -53,7 +53,9 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
   for (std::size_t i = 0; i < actual.size(); ++i) {
     if (!found[i]) report.fail("boundary " + complex.face_name(actual[i].first) + " is not listed");
   }
-  if (turned > 0) {
+  if (oriented && turned > 0 && turned == actual.size()) {
+    report.fail("all listed triangles look into the solid");
+  } else if (turned > 0) {
     report.notes.push_back(std::to_string(turned) + " listed triangles look into the solid");
   }
   return report;

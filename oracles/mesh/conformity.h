@@ -54,6 +54,9 @@ struct ConformityOptions {
   // that count as two only because the mesh has their edge: a point of one may be in the plane of
   // the other. In input units; with off_plane.
   double planar = 0;
+  // Vertices are written in coordinates that are no smaller than this: they may be given here
+  // relative to another origin.
+  double least_coordinate = 0;
   // The first failure ends the check, for a caller who only asks whether there is one.
   bool first_failure_ends = false;
   bool want_chains = false;
@@ -69,7 +72,9 @@ struct ConformityResult {
   // input units. Set by the caller who united them.
   double slab = 0;
   double deviation = 0;       // largest distance of a surface vertex from its place, rounded up
-  double off_edges = 0;       // the same of the vertices of the surface's edges
+  double deviation_ulps = 0;  // the same, each in ulp of the vertex's own largest coordinate
+  // The same of the vertices of the surface's edges.
+  double off_edges = 0, off_edges_ulps = 0;
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside
   std::vector<Index> facets;  // per face: the input facet that it tiles, or kNone
   std::uint64_t chain_edges = 0;
@@ -93,12 +98,14 @@ ConformityResult check_conformity(const TetComplex& complex, const Neighbours& n
 bool undecidable(const TetComplex& complex, const InputSurface& surface,
                  const ConformityResult& conformity, double distance);  // undecidable.cpp
 
-// The triangles that a file lists as the boundary are exactly conformity.faces, in any order and
-// orientation, and each carries the label of its facet (labels may be empty). Faces of the hull may
-// be listed too.
+// The triangles that a file lists as the boundary are exactly conformity.faces, in any order, and
+// each carries the label of its facet (labels may be empty). Faces of the hull may be listed too.
+// If `oriented`, they do not all look into the solid. How many do otherwise is told: some programs
+// list them either way.
 OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
                                  const InputSurface& surface, const ConformityResult& conformity,
                                  const std::vector<Face>& listed,
-                                 const std::vector<std::int32_t>& labels);  // boundary_list.cpp
+                                 const std::vector<std::int32_t>& labels,
+                                 bool oriented);  // boundary_list.cpp
 
 }  // namespace tetproof::oracles

@@ -84,6 +84,10 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
       oracle.notes.emplace_back("the file has no triangle");
     }
   }
+  if (record == nullptr && !options.promised.of_record.empty()) {
+    report.unproven = options.promised.of_record;
+    report.scope = "the mesh as written";
+  }
   if (record != nullptr) {
     report.deviation =
         std::max(report.deviation, verify_record(input, file, *record, options, report));

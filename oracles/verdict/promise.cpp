@@ -160,6 +160,21 @@ const Option* find_option(const std::string& name, Task task) {
   return found == std::end(kOptions) ? nullptr : found;
 }
 
+// Kept or not is seen in the refined mesh, in its surface, or in how it was made: not in a file
+// alone. In space the edges of a file are measured.
+bool is_of_record(const std::string& option, Task task) {
+  constexpr std::string_view kBoth[] = {"--delta",          "--tau",    "--acute",
+                                        "--chamfer-radius", "--preset", "--as-paper",
+                                        "--approximate"},
+                             kOfMesh[] = {"--corner", "--gabriel", "--budget", "--improve"},
+                             kOfPlane[] = {"--max-edge"};
+  const auto among = [&](const auto& names) {
+    return std::find(std::begin(names), std::end(names), option) != std::end(names);
+  };
+  if (task != Task::mesh && task != Task::plane) return false;
+  return among(kBoth) || (task == Task::mesh ? among(kOfMesh) : among(kOfPlane));
+}
+
 void put(const Option& option, bool value, Promise& p) {
   if (const auto* flag = std::get_if<bool Promise::*>(&option.target)) p.** flag = value;
   if (const auto* region = std::get_if<Region Promise::*>(&option.target)) {
@@ -260,6 +275,7 @@ class PromiseReader {
     if (known->takes != Takes::outputs && !seen_.insert(option).second) {
       return option + " is there twice";
     }
+    if (is_of_record(option, p.task)) p.of_record.push_back(option);
     if (known->takes == Takes::nothing) {
       if (value_) return option + " takes no value";
       put(*known, true, p);

@@ -46,7 +46,9 @@ struct Promise {
   double max_edge = 0;                                 // input units; 0: no bound
   std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
   double size_growth = 0.3;
-  double budget = 0;        // tetrahedra; 0: tau is not raised
+  double budget = 0;  // tetrahedra; 0: tau is not raised
+  // The options given, in a text, that a file without a record does not show to be kept.
+  std::vector<std::string> of_record = {};
   double max_vertices = 0;  // 0: no limit
 
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a

@@ -71,6 +71,7 @@ std::string to_json(const VerifyReport& report) {
   nlohmann::ordered_json json;
   json["verdict"] = verdict_name(report.verdict);
   if (!report.scope.empty()) json["scope"] = report.scope;
+  if (!report.unproven.empty()) json["unproven"] = report.unproven;
   json["deviation"] = report.deviation;
   json["deviation_ulps"] = report.deviation_ulps;
   json["deviation_relative"] = report.deviation_share;
@@ -143,14 +144,18 @@ std::string summary(const VerifyReport& report) {
   if (!names.empty()) names += ")";
   Paragraph line(std::string("verdict: ") + verdict_name(report.verdict) +
                  (report.scope.empty() ? "" : ", of " + report.scope + " alone"));
+  std::string unproven;
+  for (const std::string& promise : report.unproven) {
+    unproven += (unproven.empty() ? "not proven: " : ", ") + promise;
+  }
+  if (!unproven.empty()) line.add(unproven);
   line.add(std::to_string(passed) + " passed, " + std::to_string(failed) + " FAILED" + names +
            ", " + std::to_string(told) + " for information");
   if (undecided > 0) line.add(std::to_string(undecided) + " undecided" + open_names + ")");
   if (report.verdict == Verdict::rounded || report.verdict == Verdict::deviating) {
-    const std::string ulps =
-        report.deviation_ulps > 0  // of an envelope they are not known
-            ? " = " + number(report.deviation_ulps) + " ulp of the largest coordinate"
-            : "";
+    const std::string ulps = report.deviation_ulps > 0  // of an envelope they are not known
+                                 ? " = " + number(report.deviation_ulps) + " ulp of the coordinates"
+                                 : "";
     line.add("deviation " + number(report.deviation) + ulps);
     line.add(number(report.deviation_share) + " of the diagonal");
   }

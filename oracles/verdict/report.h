@@ -60,11 +60,14 @@ struct VerifyReport {
   Verdict verdict = Verdict::broken;
   double deviation = 0;  // upper bound for that of the surface as written, in input units
   double slab = 0;       // width of the widest that holds a facet made of several, in input units
-  double deviation_ulps = 0;   // in ulps of the largest coordinate
+  // The largest in ulps: as written of each vertex's own largest coordinate, else of that of all.
+  double deviation_ulps = 0;
   double deviation_share = 0;  // as a fraction of the bounding-box diagonal
   double planar_share = 0;  // how far facets may be from planar by the promise, as such a fraction
   std::uint64_t inverted = 0, flat = 0;  // cells as written
   const char* cells = "tetrahedra";
+  // Promises that were not shown to be kept, each perhaps with what was measured.
+  std::vector<std::string> unproven;
   std::string scope;  // the verdict is of this alone ("the final mesh"); empty: of all there is
   std::vector<OracleReport> oracles;
 

@@ -390,7 +390,7 @@ void expect_the_same_report(const delmesher::Surface& surface, delmesher::Option
     MeshFile mesh = samples::to_mesh(result.mesh);
     delmesher::ExactRecord record = result.exact;
     VerifyReport discarded;
-    ASSERT_EQ(verify_and_discard(input, mesh, &record, wanted, discarded), "");
+    ASSERT_EQ(verify(input, mesh, &record, wanted, discarded, {&mesh, &record}), "");
     EXPECT_EQ(to_text(discarded), to_text(kept));
     EXPECT_TRUE(mesh.tetrahedra.empty() && mesh.vertices.empty());
     EXPECT_TRUE(record.refined.empty() && record.refined_facets.empty());

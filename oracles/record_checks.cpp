@@ -7,9 +7,9 @@
 #include "oracles/improvement/local_operations.h"
 #include "oracles/mesh/delaunay.h"
 #include "oracles/mesh/hull.h"
+#include "oracles/plan.h"
 #include "oracles/record/same_mesh.h"
 #include "oracles/surface/stand_in.h"
-#include "oracles/verification.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/second_kernel.h"
 #endif
@@ -56,9 +56,38 @@ void check_all_is_used(const delmesher::ExactRecord& record, std::size_t inputs,
   }
 }
 
-}  // namespace
+// The record as such, and the file beside it.
+class Sidecar final : public Step {
+ public:
+  using Step::Step;
+  std::string run() override;
 
-std::string Verification::check_sidecar() {
+ private:
+  OracleReport check_written();
+  OracleReport check_facet_list(const InputSurface& surface) const;
+};
+
+// The final mesh of the record, and the one before local operations.
+class Final final : public Step {
+ public:
+  using Step::Step;
+  std::string run() override;
+
+ private:
+  using FaceOnFacet = std::array<std::uint32_t, 4>;
+
+  void check_exact_hull(const TetComplex& complex, const Neighbours& neighbours);
+  void check_complex_of_final(const ExactPoints& points, const InputSurface& surface);
+  static OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
+                                      const InputSurface& surface,
+                                      const std::vector<FaceOnFacet>& listed);
+  std::vector<Index> returned_vertices() const;
+  void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
+                         const InputSurface& surface);
+  void check_unrepaired();
+};
+
+std::string Sidecar::run() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
   OracleReport report = sidecar.report;
   if (sidecar.usable) check_all_is_used(*exact_, input_.vertices.size(), report);
@@ -78,7 +107,7 @@ std::string Verification::check_sidecar() {
   return {};
 }
 
-OracleReport Verification::check_written() {
+OracleReport Sidecar::check_written() {
   const std::shared_ptr<const ExactPoints> written = shared_.written();
   // Otherwise the oracles of the file measure it, on its surface.
   if (options_.stage == Stage::refined) {
@@ -91,7 +120,7 @@ OracleReport Verification::check_written() {
 }
 
 // The facets of the record are those of the input, once each, with their triangles.
-OracleReport Verification::check_facet_list(const InputSurface& surface) const {
+OracleReport Sidecar::check_facet_list(const InputSurface& surface) const {
   OracleReport report("facet-list", "facets");
   report.checked = surface.facets().size();
   if (const FacetIndex facets(surface, *exact_); !facets.defect().empty()) {
@@ -100,13 +129,13 @@ OracleReport Verification::check_facet_list(const InputSurface& surface) const {
   return report;
 }
 
-std::string Verification::check_exact_final() {
+std::string Final::run() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
   if (!sidecar.usable) return {};
   const ExactPoints& points = sidecar.final_points();
   const InputSurface& surface = sidecar.final_surface();
   ulp_ = ulp_of(surface);
-  check_final_complex(points, surface);
+  check_complex_of_final(points, surface);
   const bool usable = shared_.final()->shape.passed();
   shared_.forget_final();
 #ifdef TETPROOF_SECOND_OPINIONS
@@ -121,7 +150,7 @@ std::string Verification::check_exact_final() {
   return {};
 }
 
-void Verification::check_final_complex(const ExactPoints& points, const InputSurface& surface) {
+void Final::check_complex_of_final(const ExactPoints& points, const InputSurface& surface) {
   const std::shared_ptr<const SharedData::Final> final = shared_.final();
   const auto& [complex, neighbours, shape, conformity] = *final;
   add(shape, "exact-");
@@ -140,10 +169,9 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
 }
 
 // The faces that the record puts on facets are those that tile them, seen from outside.
-OracleReport Verification::check_facet_ids(const TetComplex& complex,
-                                           const ConformityResult& conformity,
-                                           const InputSurface& surface,
-                                           const std::vector<FaceOnFacet>& listed) const {
+OracleReport Final::check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
+                                    const InputSurface& surface,
+                                    const std::vector<FaceOnFacet>& listed) {
   OracleReport report("facets", "faces");
   struct Tile {
     Face face;
@@ -184,7 +212,7 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
 // What was improved, or put back onto the surface as given, has no tetrahedra outside if none were
 // asked for; the mesh before that has. That nothing overlaps follows then from the surface:
 // positive tetrahedra lie at a point as often as it winds around it.
-void Verification::check_exact_hull(const TetComplex& complex, const Neighbours& neighbours) {
+void Final::check_exact_hull(const TetComplex& complex, const Neighbours& neighbours) {
   const bool improved = options_.promised.improve && !exact_->unrepaired.empty();
   const bool inside_alone = (improved || shared_.sidecar().as_given) &&
                             options_.promised.region == delmesher::Region::interior &&
@@ -203,7 +231,7 @@ void Verification::check_exact_hull(const TetComplex& complex, const Neighbours&
 
 // On edges of the surface as given that the surface which was refined does not have. They excuse
 // what was promised on the surface as given, not a mesh that claims to be of that.
-std::vector<Index> Verification::returned_vertices() const {
+std::vector<Index> Final::returned_vertices() const {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
   std::vector<Index> vertices;
   if (!sidecar.as_given || options_.promised.planar != 0) return vertices;
@@ -224,8 +252,8 @@ std::vector<Index> Verification::returned_vertices() const {
 }
 
 // The property is demanded before improvement and repairs of rounding, and counted after them.
-void Verification::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
-                                     const InputSurface& surface) {
+void Final::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
+                              const InputSurface& surface) {
   std::vector<Face> constraints;
   for (const auto& [a, b, c, id] : exact_->final_facets) constraints.push_back({a, b, c});
   const bool repaired = !exact_->unrepaired.empty();
@@ -239,7 +267,7 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
 }
 
 // A mesh of the surface that was refined.
-void Verification::check_unrepaired() {
+void Final::check_unrepaired() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
   {
     const std::shared_ptr<const ExactPoints> written = shared_.written();
@@ -247,9 +275,9 @@ void Verification::check_unrepaired() {
             ? check_improvement(*exact_, *written, options_.promised, returned_vertices())
             : check_repairs(*exact_, *written, options_.promised));
   }
-  shared_.done_with(Bulk::final_tetrahedra);
+  memory_.done_with(kFinalTetrahedra);
   const TetComplex before = complex_of(exact_->unrepaired, sidecar.points);
-  shared_.done_with(Bulk::unrepaired_tetrahedra);
+  memory_.done_with(kUnrepairedTetrahedra);
   Neighbours neighbours;
   OracleReport shape = check_complex(before, neighbours);
   const bool usable = shape.passed();
@@ -272,6 +300,15 @@ void Verification::check_unrepaired() {
   add(check_constrained_delaunay(before, neighbours, sidecar.surface, constraints,
                                  {.known = shared_.known_to_be_delaunay()}),
       "unrepaired-");
+}
+
+}  // namespace
+
+std::unique_ptr<Step> check_sidecar(const Subject& subject) {
+  return std::make_unique<Sidecar>(subject);
+}
+std::unique_ptr<Step> check_final(const Subject& subject) {
+  return std::make_unique<Final>(subject);
 }
 
 }  // namespace tetproof::oracles

@@ -1,8 +1,6 @@
-// What several parts of a verification need of the record.
+// What several steps of a verification need of the record.
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -10,7 +8,7 @@
 
 #include "mesher/delmesher.h"
 #include "oracles/base/parallel.h"
-#include "oracles/files/mesh_file.h"
+#include "oracles/memory.h"
 #include "oracles/mesh/conformity.h"
 #include "oracles/mesh/places.h"
 #include "oracles/record/chamfer.h"
@@ -25,33 +23,7 @@ namespace tetproof::oracles {
 TetComplex complex_of(const std::vector<delmesher::ExactRecord::Tet>& tets,
                       const ExactPoints& points);
 
-// What takes most of the memory of a verification, and is given up when the last part that needs it
-// is done: of the file, all of it or its tetrahedra; of the record, the tetrahedra of the refined
-// mesh, its other elements, the tetrahedra of the final mesh, those before local operations, and
-// all of these two meshes; and the complex made of the refined mesh.
-enum class Bulk : std::uint8_t {
-  file,
-  file_tetrahedra,
-  refined_tetrahedra,
-  refined_elements,
-  final_tetrahedra,
-  unrepaired_tetrahedra,
-  final_meshes,
-  refined_complex
-};
-inline constexpr std::size_t kBulks = 8;
-
-// A file and a record that may be emptied, because the caller does not need them any more; or none.
-struct Expendable {
-  MeshFile* mesh = nullptr;
-  delmesher::ExactRecord* record = nullptr;
-};
-
-// Data that several parts of a verification need, made by the first that asks.
-//
-// Laws:
-//  - what is given up, nobody asks for again: each need is announced before the first part begins,
-//    and told to be over once.
+// Data that several steps of a verification need, made by the first that asks.
 class SharedData {
  public:
   struct Sidecar {
@@ -86,15 +58,13 @@ class SharedData {
   };
 
   SharedData(const Polyhedron& input, const delmesher::ExactRecord* exact, const Promise& promise,
-             const Expendable& expendable = {})
+             Memory& memory)
       : input_(input),
         exact_(exact),
         promise_(promise),
-        expendable_(expendable),
+        memory_(memory),
         has_final_(exact != nullptr && !exact->final.empty()) {}
 
-  void need(Bulk bulk) { ++needs_[static_cast<std::size_t>(bulk)]; }
-  void done_with(Bulk bulk);
   // Had the record a final mesh?
   bool has_final() const { return has_final_; }
 
@@ -119,6 +89,8 @@ class SharedData {
     if (!final_chains_known_) make_final();
     return final_chains_;
   }
+  // Once nobody asks for it any more.
+  void forget_refined() { refined_ = Refined(); }
   // Its memory, once its own oracles are done.
   void forget_final() {
     const std::lock_guard<std::mutex> lock(final_mutex_);
@@ -139,7 +111,7 @@ class SharedData {
   const Refined& refined() {
     refined_once_([this] {
       refined_.complex = complex_of(exact_->refined, sidecar().points);
-      done_with(Bulk::refined_tetrahedra);
+      memory_.done_with(kRefinedTetrahedra);
       refined_.shape = check_complex(refined_.complex, refined_.neighbours);
       refined_.places =
           std::make_unique<const Places>(refined_.complex, refined_.neighbours, sidecar_.surface,
@@ -156,20 +128,17 @@ class SharedData {
     return std::move(in_refined_);
   }
   std::mutex progress;
-  double largest_given = 0;  // coordinate of the input, if it is larger than those told
 
  private:
   void read_sidecar();
   std::string place_as_given(ExactPoints& points) const;
   void make_final();
-  void give_up(Bulk bulk);
 
   const Polyhedron& input_;
   const delmesher::ExactRecord* exact_;
   const Promise& promise_;
-  const Expendable expendable_;
+  Memory& memory_;
   const bool has_final_;
-  std::array<std::atomic<unsigned>, kBulks> needs_{};
   Once sidecar_once_, refined_once_;
   std::mutex final_mutex_;
   std::shared_ptr<const Final> final_;

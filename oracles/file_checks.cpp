@@ -1,25 +1,64 @@
 // The oracles on the mesh as it was written.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <string>
 #include <utility>
 
 #include "oracles/base/vectors.h"
 #include "oracles/files/edge_nodes.h"
 #include "oracles/mesh/delaunay.h"
+#include "oracles/mesh/edge_lengths.h"
 #include "oracles/mesh/hull.h"
+#include "oracles/mesh/measures.h"
 #include "oracles/mesh/places.h"
 #include "oracles/mesh/regions.h"
-#include "oracles/record/refined_index.h"
+#include "oracles/plan.h"
+#include "oracles/readings.h"
 #include "oracles/surface/surface_validity.h"
 #include "oracles/verdict/verdict.h"
-#include "oracles/verification.h"
 
 namespace tetproof::oracles {
+namespace {
+
+// The mesh as written, on its doubles.
+class FileStep final : public Step {
+ public:
+  explicit FileStep(const Subject& subject) : Step(subject), subject_(subject) {}
+  std::string run() override;
+
+ private:
+  bool check_finite();
+  bool check_empty();
+  void turn_all(TetComplex& complex) const;
+  BeforeWriting before_writing();
+  void check_surface(const TetComplex& complex, const Neighbours& neighbours,
+                     const InputSurface& input);
+  void check_hull_of_file(const TetComplex& complex, const Neighbours& neighbours,
+                          const InputSurface& surface);
+  void check_quality(const TetComplex& complex, const Neighbours& neighbours,
+                     const InputSurface& surface, const ConformityResult& conformity);
+  void check_lengths(const TetComplex& complex);
+  void check_no_list();
+  void check_names();
+
+  const Subject& subject_;
+  double slack_ = 0;  // how far the surface of the file may be from where it belongs
+};
+
+class InputStep final : public Step {
+  using Step::Step;
+  std::string run() override;
+};
+
+// Of so many violations of a complex: what others ask of tetrahedra that lie on each other takes
+// time by the square of their number.
+constexpr std::uint64_t kHopeless = 1000;
 
 // Some formats have no convention: there the sign of the majority is the right one. A file with a
 // record was written by delmesher, which has one.
-void Verification::turn_all(TetComplex& complex) const {
+void FileStep::turn_all(TetComplex& complex) const {
   if (!mesh_.either_orientation || exact_ != nullptr) return;
   std::int64_t balance = 0;
   for (const auto& [a, b, c, d] : complex.tetrahedra) {
@@ -31,7 +70,7 @@ void Verification::turn_all(TetComplex& complex) const {
 
 // Numbers that are not finite are reported by an oracle, as no file may make the verification fail
 // otherwise.
-bool Verification::check_finite() {
+bool FileStep::check_finite() {
   OracleReport report("complex", "vertices");
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
     ++report.checked;
@@ -46,7 +85,7 @@ bool Verification::check_finite() {
 
 // The filter may leave nothing to refine. Then same-mesh decides whether the record has nothing to
 // write, either; without a record an empty file says nothing.
-bool Verification::check_empty() {
+bool FileStep::check_empty() {
   if (exact_ == nullptr || !options_.promised.approximate || !mesh_.tetrahedra.empty())
     return false;
   OracleReport report("complex", "vertices");
@@ -58,7 +97,7 @@ bool Verification::check_empty() {
   return true;
 }
 
-std::string Verification::check_file() {
+std::string FileStep::run() {
   if (!check_finite() || check_empty()) return {};
   ExactPoints points;
   InputSurface surface;
@@ -85,7 +124,7 @@ std::string Verification::check_file() {
 
   const auto offset = static_cast<Index>(input_.vertices.size());
   TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};
-  shared_.done_with(Bulk::file_tetrahedra);
+  memory_.done_with(kFileTetrahedra);
   for (Tet& tet : complex.tetrahedra) {
     for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
   }
@@ -95,8 +134,11 @@ std::string Verification::check_file() {
   // Neighbours are numbers of faces within tetrahedra, so no tetrahedron may be turned afterwards.
   if (in_range) turn_all(complex);
   Neighbours neighbours;
-  add(check_complex(complex, neighbours, options_.stage == Stage::refined));
-  if (!in_range) return {};  // the complex oracle has reported it
+  OracleReport shape = check_complex(complex, neighbours, options_.stage == Stage::refined);
+  const bool hopeless = shape.violations > kHopeless;
+  if (hopeless) shape.notes.emplace_back("it fails so often that nothing else was asked");
+  add(std::move(shape));
+  if (!in_range || hopeless) return {};  // the complex oracle has reported it
   OracleReport orientation = check_orientation(complex);
   report_.inverted = static_cast<std::uint64_t>(orientation.figure("inverted").value_or(0));
   report_.flat = static_cast<std::uint64_t>(orientation.figure("flat").value_or(0));
@@ -115,22 +157,23 @@ std::string Verification::check_file() {
   if (mesh_.regions.empty() && solid_only) one_region.assign(complex.tetrahedra.size(), 0);
   const std::vector<std::int64_t>& given = mesh_.regions.empty() ? one_region : mesh_.regions;
   if (given.empty()) {  // the hull: parity alone decides
-    check_file_surface(complex, neighbours, surface);
-    check_file_hull(complex, neighbours);
+    check_surface(complex, neighbours, surface);
+    check_hull_of_file(complex, neighbours, surface);
     return {};
   }
   const Regions regions(complex, given);
-  check_file_surface(complex, neighbours, surface);
+  check_surface(complex, neighbours, surface);
   // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
   const bool sides_known = exact_ != nullptr || !mesh_.all_called_inside;
   add(regions.check_strays(8 * slack_, sides_known ? mesh_.inside : std::vector<std::uint8_t>{}));
   // What is outside is there to fill the hull.
   const bool beside = std::ranges::find(complex.inside, 0) != complex.inside.end();
-  if (!solid_only || beside || scope() == AngleScope::all) check_file_hull(complex, neighbours);
+  if (!solid_only || beside || scope() == AngleScope::all)
+    check_hull_of_file(complex, neighbours, surface);
   return {};
 }
 
-BeforeWriting Verification::before_writing() {
+BeforeWriting FileStep::before_writing() {
   BeforeWriting before;
   if (exact_ == nullptr) {
     before.farthest = kRoundedUlps * ulp_ + options_.promised.planar_share() * diagonal_;
@@ -141,97 +184,14 @@ BeforeWriting Verification::before_writing() {
   return before;
 }
 
-// Tries the surface as it is first. If facets that are planar within a bound may be one, those are
-// united that no chain of mesh edges separates, provided that the mesh conforms to the united
-// surface, which is then returned as well. Needles no wider than the bound may belong to the facet
-// on either side of them.
-ConformityResult Verification::conformity_of_file(const TetComplex& complex,
-                                                  const Neighbours& neighbours,
-                                                  const InputSurface& surface,
-                                                  std::optional<InputSurface>& united) {
-  ConformityResult result =
-      check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
-  if (result.report.passed()) return result;
-  // What fails by positions alone is judged by the record's chains, if there is one.
-  const bool recorded = shared_.has_final();
-  const auto check = [&](const InputSurface& on, ConformityOptions options) {
-    options.first_failure_ends = recorded;
-    ConformityResult r = check_conformity(complex, neighbours, on, options);
-    if (r.report.passed() || !recorded) return r;
-    const Chains chains = recorded_chains(on);
-    options.chains = &chains;
-    options.first_failure_ends = false;
-    return check_conformity(complex, neighbours, on, options);
-  };
-  const double rounding = kRoundedUlps * ulp_ / diagonal_;
-  const double planar = options_.promised.planar_share();
-  ConformityOptions rounded{.exact = false};
-  // A solid may be so small that roundings are a larger share of its diagonal.
-  rounded.largest_tolerance = std::max(rounded.largest_tolerance, rounding);
-  const auto at_most_deviating = [&] { return check(surface, rounded); };
-  if (planar == 0) return at_most_deviating();
-  ConformityOptions as_rounded = rounded;
-  as_rounded.largest_tolerance = rounding;
-  result = check(surface, as_rounded);
-  if (result.report.passed() && result.deviation <= kRoundedUlps * ulp_) return result;
-  const std::vector<Index> failed_edges = std::move(result.failed_edges);
-  const double bound = planar * diagonal_;
-  const double at_edges =
-      std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_) * (1 + 1e-9);
-  const auto conforms_to = [&](InputSurface& flat, double width) {
-    if (!(width <= bound)) return false;
-    as_rounded.off_plane = kRoundedUlps * ulp_;
-    as_rounded.planar = width > 0 ? bound : 0;
-    ConformityResult of_flat = check(flat, as_rounded);
-    // Chains that the record gives may be anywhere. Only facets were promised to be no more than
-    // planar within a bound, their edges are as given.
-    if (!of_flat.report.passed() || of_flat.off_edges > at_edges) return false;
-    of_flat.slab = width;
-    of_flat.deviation = std::max(of_flat.deviation, width);
-    of_flat.report.figures.emplace_back(
-        "facets united",
-        static_cast<double>(surface.facets().size()) - static_cast<double>(flat.facets().size()));
-    united = std::move(flat);
-    result = std::move(of_flat);
-    return true;
-  };
-  InputSurface flat = surface;
-  if (conforms_to(flat, flat.unite_facets(failed_edges, bound, *complex.points))) return result;
-  if (exact_ == nullptr) {
-    const double width = flat.move_needles(
-        [&](const InputSurface& parted) { return check(parted, as_rounded).failed_edges; }, bound,
-        *complex.points);
-    if (conforms_to(flat, width)) return result;
-    return at_most_deviating();
-  }
-  // To which of two facets a needle belongs is in the record, and whether that is a facet is
-  // decided as before.
-  const std::vector<Index> named = recorded_facets();
-  if (named.size() != surface.triangles().size()) return at_most_deviating();
-  flat = surface;
-  const double named_width = flat.group_facets(named, bound, *complex.points);
-  return conforms_to(flat, named_width) ? result : at_most_deviating();
-}
-
-// Per triangle of the input the facet that has it, by the record; empty if a triangle is in none.
-std::vector<Index> Verification::recorded_facets() const {
-  std::vector<Index> facet(input_.triangles.size(), kNone);
-  for (const delmesher::ExactRecord::Facet& f : exact_->facets) {
-    for (const std::uint32_t t : f.triangles) {
-      if (t < facet.size()) facet[t] = f.id;
-    }
-  }
-  if (std::find(facet.begin(), facet.end(), kNone) != facet.end()) facet.clear();
-  return facet;
-}
-
-void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
-                                      const InputSurface& input) {
-  std::optional<InputSurface> united;
-  ConformityResult conformity = conformity_of_file(complex, neighbours, input, united);
-  const InputSurface& surface = united ? *united : input;
+void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighbours,
+                             const InputSurface& input) {
+  Readings readings(subject_, complex, neighbours, input, ulp_, diagonal_);
+  ConformityResult conformity = readings.conformity();
+  const InputSurface& surface = readings.surface();
   if (conformity.report.passed()) {  // else the deviation means nothing
     report_.deviation = conformity.deviation;
+    report_.deviation_ulps = conformity.deviation_ulps;
     report_.slab = conformity.slab;
     slack_ = conformity.deviation;
   } else if (exact_ == nullptr && undecidable(complex, surface, conformity, kRoundedUlps * ulp_)) {
@@ -247,16 +207,18 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
       surface_area(complex, conformity.faces, area_unit(input.largest_coordinate()));
   const double allowed = slack_ > 0 ? std::max(2 * slack_ * area, 0x1p-1074) : 0;
   add(check_volume(complex, neighbours, input, allowed));
-  check_file_quality(complex, neighbours, surface, conformity);
+  check_quality(complex, neighbours, surface, conformity);
   // If the faces' facets are unknown, so are the labels they should have.
-  if (mesh_.boundary.empty() || conformity.report.undecided) return;
+  if (conformity.report.undecided) return;
+  if (mesh_.boundary.empty()) return check_no_list();
   std::vector<Face> listed = mesh_.boundary;
   for (Face& face : listed) {
     for (Index& v : face) v += complex.first_vertex;
   }
   const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
   OracleReport list = check_boundary_list(complex, neighbours, surface, conformity, listed,
-                                          labelled ? mesh_.labels : std::vector<std::int32_t>{});
+                                          labelled ? mesh_.labels : std::vector<std::int32_t>{},
+                                          exact_ != nullptr || !mesh_.either_orientation);
   if (!labelled && !input_.labels.empty()) {
     list.notes.emplace_back("the input has labels and the file has none");
   }
@@ -264,8 +226,19 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   check_names();
 }
 
+// Labels that differ are lost in a file that lists no triangles, though its format has them.
+void FileStep::check_no_list() {
+  const bool differ =
+      std::ranges::adjacent_find(input_.labels, std::ranges::not_equal_to()) != input_.labels.end();
+  if (!mesh_.lists_boundary || !differ) return;
+  OracleReport list("boundary-list", "labels");
+  list.checked = 1;
+  list.fail("the input has labels, and the file lists no triangles");
+  add(std::move(list));
+}
+
 // Others than delmesher promise no names.
-void Verification::check_names() {
+void FileStep::check_names() {
   if (!mesh_.has_names || options_.promised.names) return;
   const std::vector<std::int64_t> labels(mesh_.labels.begin(), mesh_.labels.end());
   OracleReport names("names", "labels"), sides("names", "regions");
@@ -286,45 +259,9 @@ void Verification::check_names() {
   }
 }
 
-// The chain of mesh edges on which each edge of the surface lies by the record's exact coordinates,
-// in vertices of the file.
-Chains Verification::recorded_chains(const InputSurface& surface) {
-  const SharedData::Sidecar& sidecar = shared_.sidecar();
-  if (!sidecar.usable) return {};
-  const Chains& exact = shared_.final_chains();
-  std::vector<Index> written(sidecar.points.size(), kNone);
-  for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
-    const Index v = exact_->mesh_vertices[i];
-    if (v >= written.size()) continue;  // check_rounding reports it
-    written[v] = static_cast<Index>(input_.vertices.size() + i);
-  }
-  // The surface that was meshed may have fewer edges than the input, or in another direction.
-  const std::vector<InputSurface::Edge>& meshed = sidecar.final_surface().edges();
-  const InputEdges number(surface);
-  std::vector<Index> recorded(surface.edges().size(), kNone);
-  for (Index e = 0; e < meshed.size(); ++e) {
-    const Index on = number.find(meshed[e].from, meshed[e].to);
-    if (on != kNone) recorded[on] = e;
-  }
-  Chains chains;
-  std::vector<Index> chain;
-  for (std::size_t e = 0; e < recorded.size(); ++e) {
-    chain.clear();
-    if (recorded[e] != kNone) {
-      for (const Index v : exact.of(recorded[e])) chain.push_back(written[v]);
-      if (meshed[recorded[e]].from != surface.edges()[e].from) {
-        std::reverse(chain.begin(), chain.end());
-      }
-    }
-    chains.add(chain);
-  }
-  return chains;
-}
-
 // Nothing is promised of the doubles as written, so these oracles only count and measure.
-void Verification::check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
-                                      const InputSurface& surface,
-                                      const ConformityResult& conformity) {
+void FileStep::check_quality(const TetComplex& complex, const Neighbours& neighbours,
+                             const InputSurface& surface, const ConformityResult& conformity) {
   OracleReport delaunay =
       check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false});
   // A mesh all of whose faces are on the surface, as a single tetrahedron, has nothing to count.
@@ -333,31 +270,64 @@ void Verification::check_file_quality(const TetComplex& complex, const Neighbour
   angles.promised = false;
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;
   measure_angles(complex, neighbours, complex.inside, angles);
-  const Promise& promised = options_.promised;
-  for (const auto& [is_promised, option] :
-       {std::pair(promised.max_edge > 0, "--max-edge"),
-        std::pair(!promised.size_field.empty(), "--size-field"),
-        std::pair(promised.delta != Promise{}.delta, "--delta")}) {
-    if (exact_ != nullptr || !is_promised) continue;
-    angles.notes.push_back(std::string(option) +
-                           " is promised of the refined mesh, which is in the record");
-  }
   add(std::move(angles));
+  check_lengths(complex);
+}
+
+// A corner that chamfering cut off and that came back is not refined. Whether a long edge is at
+// such a corner is in the record: there the refined mesh, and what followed, are decided.
+void FileStep::check_lengths(const TetComplex& complex) {
+  for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, scope())) {
+    if (lengths.violations > 0) {
+      char text[100];
+      std::snprintf(text, sizeof text, "%s (%llu edges are longer, up to %.3g times)",
+                    lengths.name == "edges" ? "--max-edge" : "--size-field",
+                    static_cast<unsigned long long>(lengths.violations),
+                    lengths.figure(kLargestEdge).value_or(0));
+      report_.unproven.emplace_back(text);
+      if (exact_ == nullptr) {
+        lengths.undecided = true;
+        lengths.notes.emplace_back(
+            "edges at corners that were chamfered may be longer; a record (--exact) says where");
+      } else {
+        lengths.promised = false;
+        lengths.violations = 0;
+        lengths.findings.clear();
+      }
+    }
+    add(std::move(lengths));
+  }
 }
 
 // Steiner points on the outer boundary are rounded like all others.
-void Verification::check_file_hull(const TetComplex& complex, const Neighbours& neighbours) {
+void FileStep::check_hull_of_file(const TetComplex& complex, const Neighbours& neighbours,
+                                  const InputSurface& surface) {
+  // Of `mesh` the hull is that of a box, whose size is up to the mesher.
+  const bool of_input = options_.promised.task == Task::cdt;
+  if (!of_input && exact_ == nullptr && scope() == AngleScope::all) {
+    report_.unproven.emplace_back("how far --region hull reaches");
+  }
   if (report_.inverted + report_.flat > 0) return;  // the oracle needs positive tetrahedra
-  add(check_hull(complex, neighbours,
-                 {.allowed = std::max(
-                      {kRoundedUlps * ulp_, slack_, options_.declared_deviation * diagonal_})}));
+  add(check_hull(
+      complex, neighbours,
+      {.allowed = std::max({kRoundedUlps * ulp_, slack_, options_.declared_deviation * diagonal_}),
+       .of = of_input ? std::span(surface.used_vertices()) : std::span<const Index>{}}));
 }
 
-std::string Verification::check_input() {
+std::string InputStep::run() {
 #ifdef TETPROOF_SECOND_OPINIONS
   add(check_surface_validity(input_));  // it only asks other libraries
 #endif
   return {};
+}
+
+}  // namespace
+
+std::unique_ptr<Step> check_file(const Subject& subject) {
+  return std::make_unique<FileStep>(subject);
+}
+std::unique_ptr<Step> check_input(const Subject& subject) {
+  return std::make_unique<InputStep>(subject);
 }
 
 }  // namespace tetproof::oracles

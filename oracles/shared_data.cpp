@@ -1,12 +1,10 @@
-#include "oracles/verify_shared.h"
+#include "oracles/shared_data.h"
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "oracles/base/box.h"
-#include "oracles/base/heap.h"
 #include "oracles/base/vectors.h"
 #include "oracles/mesh/delaunay.h"
 
@@ -99,33 +97,6 @@ TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoin
     complex.inside.push_back(tet.inside);
   }
   return complex;
-}
-
-// Of a vector, assigning nothing would keep the memory.
-void SharedData::give_up(Bulk bulk) {
-  delmesher::ExactRecord* record = expendable_.record;
-  const auto empty = [](auto&... lists) { ((lists = std::decay_t<decltype(lists)>()), ...); };
-  if (bulk == Bulk::file && expendable_.mesh != nullptr) *expendable_.mesh = MeshFile();
-  if (bulk == Bulk::file_tetrahedra && expendable_.mesh != nullptr) {
-    empty(expendable_.mesh->tetrahedra);
-  }
-  if (bulk == Bulk::refined_complex) refined_ = Refined();
-  if (record == nullptr) return;
-  if (bulk == Bulk::refined_tetrahedra) empty(record->refined);
-  if (bulk == Bulk::refined_elements) {
-    empty(record->segments, record->chamfer_points, record->refined_facets, record->balls);
-  }
-  if (bulk == Bulk::final_tetrahedra) empty(record->final);
-  if (bulk == Bulk::unrepaired_tetrahedra) empty(record->unrepaired);
-  if (bulk == Bulk::final_meshes) {
-    empty(record->final, record->final_facets, record->unrepaired, record->unrepaired_facets);
-  }
-}
-
-void SharedData::done_with(Bulk bulk) {
-  if (--needs_[static_cast<std::size_t>(bulk)] > 0) return;
-  give_up(bulk);
-  return_free_pages();
 }
 
 void SharedData::tell_refined_is_delaunay() {
