@@ -1,5 +1,6 @@
-// What a wheel asks of the C library, in the oldest version that has it: for ci/machines/wheels, included
-// before everything. A newer hypot (2.35) differs in what it tells of errors, not in its values.
+// What a wheel asks of the C library, in the oldest version that has it: for ci/machines/wheels,
+// included before everything. A newer hypot (2.35) differs in what it tells of errors, not in its
+// values.
 #pragma once
 
 #if defined(__x86_64__)
