@@ -216,9 +216,9 @@ void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighb
     for (Index& v : face) v += complex.first_vertex;
   }
   const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
-  OracleReport list = check_boundary_list(complex, neighbours, surface, conformity, listed,
-                                          labelled ? mesh_.labels : std::vector<std::int32_t>{},
-                                          exact_ != nullptr || !mesh_.either_orientation);
+  OracleReport list =
+      check_boundary_list(complex, neighbours, surface, conformity, listed,
+                          labelled ? mesh_.labels : std::vector<std::int32_t>{}, exact_ != nullptr);
   if (!labelled && !input_.labels.empty()) {
     list.notes.emplace_back("the input has labels and the file has none");
   }

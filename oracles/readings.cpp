@@ -18,7 +18,7 @@ struct Readings::Reading {
 const Readings::Reading Readings::kReadings[] = {
     {"exact", "every vertex of the boundary is exactly in its place", &Readings::always,
      &Readings::is_exact},
-    {"rounded", "vertices are at most 4 ulp of their own coordinates from their places",
+    {"rounded", "vertices are at most 4 ulp of the largest coordinate from their places",
      &Readings::near_planar, &Readings::is_rounded},
     {"facets united", "facets within the promised slab count as one where no mesh edge parts them",
      &Readings::near_planar, &Readings::has_united_facets},
@@ -46,7 +46,8 @@ Readings::Readings(const Subject& subject, const TetComplex& complex, const Neig
   // A solid may be so small that roundings are a larger share of its diagonal.
   rounded_.largest_tolerance = std::max(rounded_.largest_tolerance, share);
   as_rounded_.largest_tolerance = share;
-  rounded_.least_coordinate = as_rounded_.least_coordinate = subject.largest_given;
+  rounded_.least_coordinate = as_rounded_.least_coordinate =
+      std::max(subject.largest_given, surface.largest_coordinate());
 }
 
 ConformityResult Readings::conformity() {
@@ -90,7 +91,8 @@ bool Readings::conforms_to(InputSurface flat, double width) {
   as_rounded_.off_plane = rounding_;
   as_rounded_.planar = width > 0 ? bound_ : 0;
   ConformityResult of_flat = check(flat, as_rounded_);
-  const bool near = of_flat.off_edges_ulps <= kRoundedUlps || of_flat.off_edges <= declared_;
+  const bool near =
+      of_flat.off_edges_ulps <= kRoundedUlps * (1 + 1e-9) || of_flat.off_edges <= declared_;
   if (!of_flat.report.passed() || !near) return false;
   of_flat.slab = width;
   of_flat.deviation_ulps = std::max(of_flat.deviation_ulps, kRoundedUlps * width / rounding_);

@@ -79,7 +79,6 @@ TEST(Truths, FiguresAreThoseOfTheRun) {
   const VerifyReport report = verdict_on(honest());
   // The largest coordinate is 3.
   EXPECT_GT(report.deviation, 0);
-  // In ulp of each vertex's own coordinates, which are no larger.
   EXPECT_GE(report.deviation_ulps, report.deviation / 0x1p-51 * (1 - 1e-12));
   EXPECT_LE(report.deviation_ulps, 4);
   std::set<Index> refined, created;

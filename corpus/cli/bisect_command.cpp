@@ -8,8 +8,8 @@
 
 namespace tetproof {
 
-// Commits are built, so the command is a script of the sources (ci/campaigns/bisect), which takes the place
-// of this program.
+// Commits are built, so the command is a script of the sources (ci/campaigns/bisect), which takes
+// the place of this program.
 int bisect_command(char** argv) {
   namespace fs = std::filesystem;
   for (fs::path folder = fs::current_path();; folder = folder.parent_path()) {
@@ -20,7 +20,8 @@ int bisect_command(char** argv) {
     }
     if (folder == folder.root_path()) break;
   }
-  throw UsageError("bisect: a clone of the project is expected here or above, with its ci/campaigns/bisect");
+  throw UsageError(
+      "bisect: a clone of the project is expected here or above, with its ci/campaigns/bisect");
 }
 
 }  // namespace tetproof

@@ -262,15 +262,23 @@ constexpr bool is_of(T Class::*) {
   return false;
 }
 
+// What has the members of Class: the options themselves, or their as_paper.
+template <class Class, class JobOptions>
+constexpr auto& part_of(JobOptions& options) {
+  if constexpr (std::is_base_of_v<Class, std::remove_const_t<JobOptions>>) {
+    return options;
+  } else {
+    return options.as_paper;
+  }
+}
+
 // Calls visit(text, member) for each option of the job, in the order of the table.
 template <class JobOptions, class Visit>
 constexpr void for_each(JobOptions& options, const Visit& visit) {
   using Plain = std::remove_const_t<JobOptions>;
   const auto visit_member = [&]<class Class, class T>(const Text& text, T Class::*member) {
-    if constexpr (std::is_base_of_v<Class, Plain>) {
-      visit(text, options.*member);
-    } else if constexpr (is_of<Plain>(static_cast<T Class::*>(nullptr))) {
-      visit(text, options.as_paper.*member);
+    if constexpr (is_of<Plain>(static_cast<T Class::*>(nullptr))) {
+      visit(text, part_of<Class>(options).*member);
     }
   };
   const auto visit_row = [&](const auto& row) {

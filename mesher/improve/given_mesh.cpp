@@ -8,6 +8,7 @@
 
 #include "mesher/base/face_key.h"
 #include "mesher/base/numbering.h"
+#include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::improve {

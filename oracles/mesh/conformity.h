@@ -71,8 +71,9 @@ struct ConformityResult {
   // Width of the widest slab that contains a facet made of several (InputSurface::unite_facets), in
   // input units. Set by the caller who united them.
   double slab = 0;
-  double deviation = 0;       // largest distance of a surface vertex from its place, rounded up
-  double deviation_ulps = 0;  // the same, each in ulp of the vertex's own largest coordinate
+  double deviation = 0;  // largest distance of a surface vertex from its place, rounded up
+  double deviation_ulps =
+      0;  // the same, each in ulp of the vertex's own coordinates or least_coordinate
   // The same of the vertices of the surface's edges.
   double off_edges = 0, off_edges_ulps = 0;
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside

@@ -153,9 +153,10 @@ std::string summary(const VerifyReport& report) {
            ", " + std::to_string(told) + " for information");
   if (undecided > 0) line.add(std::to_string(undecided) + " undecided" + open_names + ")");
   if (report.verdict == Verdict::rounded || report.verdict == Verdict::deviating) {
-    const std::string ulps = report.deviation_ulps > 0  // of an envelope they are not known
-                                 ? " = " + number(report.deviation_ulps) + " ulp of the coordinates"
-                                 : "";
+    const std::string ulps =
+        report.deviation_ulps > 0  // of an envelope they are not known
+            ? " = " + number(report.deviation_ulps) + " ulp of the largest coordinate"
+            : "";
     line.add("deviation " + number(report.deviation) + ulps);
     line.add(number(report.deviation_share) + " of the diagonal");
   }

@@ -60,7 +60,7 @@ struct VerifyReport {
   Verdict verdict = Verdict::broken;
   double deviation = 0;  // upper bound for that of the surface as written, in input units
   double slab = 0;       // width of the widest that holds a facet made of several, in input units
-  // The largest in ulps: as written of each vertex's own largest coordinate, else of that of all.
+  // The largest in ulps: of the largest coordinate.
   double deviation_ulps = 0;
   double deviation_share = 0;  // as a fraction of the bounding-box diagonal
   double planar_share = 0;  // how far facets may be from planar by the promise, as such a fraction

@@ -1,5 +1,5 @@
-// Included in every mutated file of the tree of ci/planted/mutants: the switch between the mutants that one
-// build contains.
+// Included in every mutated file of the tree of ci/planted/mutants: the switch between the mutants
+// that one build contains.
 //
 // MUTANT=N in the environment turns one on. MUTANTS_REACHED=FILE names a file that is mapped, so
 // that the programs that a test starts note in it, too, which mutants they come to.
