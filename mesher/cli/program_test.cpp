@@ -167,6 +167,19 @@ TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");
 }
 
+// Corners that chamfering took off come back, unrefined: the apex of a steep pyramid.
+TEST_F(Program, EdgesThatAreTooLongAreSaid) {
+  write("in.off",
+        "OFF\n5 6 0\n-2 -2 0\n2 -2 0\n2 2 0\n-2 2 0\n0 0 12\n3 0 2 1\n3 0 3 2\n3 0 1 4\n3 1 2 4\n"
+        "3 2 3 4\n3 3 0 4\n");
+  EXPECT_EQ(run("in.off -o mesh.mesh --max-edge 0.5"), 0);
+  EXPECT_NE(text("err.txt").find(" longer than --max-edge allows, the longest, "),
+            std::string::npos)
+      << text("err.txt");
+  EXPECT_EQ(run("in.off -o mesh.mesh --max-edge 20"), 0);
+  EXPECT_EQ(text("err.txt").find("--max-edge"), std::string::npos) << text("err.txt");
+}
+
 // A prism over a triangle with an angle of a degree: its facets meet at that, two of them have such
 // a corner, and faces across the edge have no larger angles there.
 TEST_F(Program, AnglesThatTheInputForcesAreSaid) {

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/geometry/size_field.h"
 #include "mesher/geometry/vector.h"
 
 namespace delmesher::cli {
@@ -238,6 +239,52 @@ std::string quality_text(const PlaneResult& result) {
   return "angles " + number(s.min_angle, 2) + " to " + number(s.max_angle, 2) +
          " degrees, the smallest at " + place(mesh.vertices[worst]) + "; mean of the smallest " +
          number(s.mean_min_angle, 2);
+}
+
+std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& options) {
+  const geometry::SizeField sizes(options.size_field, options.size_growth);
+  if (options.max_edge <= 0 && sizes.empty()) return {};
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    if (options.region == Region::interior && !mesh.inside.empty() && mesh.inside[t] == 0) continue;
+    const auto& tet = mesh.tetrahedra[t];
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        edges.push_back({std::min(tet[i], tet[j]), std::max(tet[i], tet[j])});
+      }
+    }
+  }
+  base::sort_unique(edges);
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& option, const auto& is_too_long) {
+    std::uint64_t count = 0;
+    double longest = 0;
+    Vec3 at{};
+    for (const auto& [v, w] : edges) {
+      const Vec3 &a = mesh.vertices[v], &b = mesh.vertices[w];
+      if (!is_too_long(a, b)) continue;
+      ++count;
+      const double length = norm(subtract(b, a));
+      if (length <= longest) continue;
+      longest = length;
+      at = middle(a, b);
+    }
+    if (count == 0) return;
+    char length[40];
+    std::snprintf(length, sizeof length, "%.6g", longest);
+    warnings.push_back(std::to_string(count) + (count == 1 ? " edge is" : " edges are") +
+                       " longer than " + option + " allows, the longest, " + length + ", at " +
+                       place(at));
+  };
+  if (options.max_edge > 0) {
+    const double most = options.max_edge * (1 + 1e-9);
+    warn("--max-edge",
+         [most](const Vec3& a, const Vec3& b) { return norm(subtract(b, a)) > most; });
+  }
+  if (!sizes.empty()) {
+    warn("--size-field", [&](const Vec3& a, const Vec3& b) { return sizes.is_too_long(a, b); });
+  }
+  return warnings;
 }
 
 std::vector<std::string> quality_warnings(const Result& result, double delta) {

@@ -17,4 +17,8 @@ std::string quality_text(const PlaneResult& result);
 // whether an edge or a corner of the input forces it. `delta`: Options::delta.
 std::vector<std::string> quality_warnings(const Result& result, double delta);
 
+// Warnings where edges of the mesh are longer than max_edge or the size field allow: how many, and
+// the longest. Those of corners that come back after refinement are not refined.
+std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& options);
+
 }  // namespace delmesher::cli

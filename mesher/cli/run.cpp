@@ -126,6 +126,9 @@ int Runner::mesh() {
     for (std::string& warning : quality_warnings(result, options->delta)) {
       result.warnings.push_back(std::move(warning));
     }
+    for (std::string& warning : edge_warnings(result.mesh, *options)) {
+      result.warnings.push_back(std::move(warning));
+    }
   }
   return finish({result.status, result.warnings,
                  [&](io::OutputSet& outputs) { return write_all(outputs, result); },
