@@ -1,6 +1,7 @@
 #include "reports/gate_runs.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "reports/gate.h"
@@ -37,7 +38,10 @@ Run parsed(const RunRow& row) {
   try {
     run.verdict.value("error", "");
     for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
-      run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+      // One that is there twice has passed if it has both times.
+      const bool passed = oracle.value("passed", false);
+      bool& all = run.passed.try_emplace(oracle.value("name", ""), true).first->second;
+      all = all && passed;
     }
   } catch (const Json::exception&) {
     throw std::runtime_error(row.key.mesher + " " + row.model_name +
@@ -119,7 +123,17 @@ std::optional<double> most(const Run& run, const Getter& value) {
 Runs runs_of(const std::vector<RunRow>& rows) {
   Runs runs;
   std::map<RunKey, std::vector<const RunRow*>> by_key;
-  for (const RunRow& row : rows) by_key[row.key].push_back(&row);
+  std::map<std::array<std::string, 2>, const RunRow*> at;  // without a time
+  for (const RunRow& row : rows) {
+    by_key[row.key].push_back(&row);
+    if (!row.started.empty()) continue;
+    const auto [seen, fresh] = at.try_emplace({row.key.mesher, row.key.model_sha256}, &row);
+    if (!fresh && seen->second->key != row.key) {
+      throw std::runtime_error(row.key.mesher + " " + row.model_name +
+                               ": runs of different limits, flags or versions, and no times (as in "
+                               "a stable export) that say which came last");
+    }
+  }
   for (const auto& [mesher, by_model] : select_runs(rows).runs) {
     for (const auto& [model, row] : by_model) {
       runs[mesher].emplace(model, run_of(by_key.at(row.key)));

@@ -488,6 +488,36 @@ TEST(Gate, AnOracleThatFailsOrIsSilentIsARegression) {
   EXPECT_EQ(report.notes.size(), 1U);
 }
 
+TEST(Gate, AnOracleThatIsThereTwiceHasToPassTwice) {
+  for (const bool failed_first : {true, false}) {
+    auto fresh = campaign(5);
+    change(fresh[1], [=](Json&, Json&, Json& verdict) {
+      verdict["oracles"].push_back({{"name", "volume"}, {"passed", failed_first}});
+      verdict["oracles"][0]["passed"] = !failed_first;
+    });
+    expect_only(compare_campaigns(campaign(5), fresh), FindingKind::oracle, 1);
+  }
+}
+
+// Which of two runs came last says nothing but the time.
+TEST(Gate, RunsOfOneModelNeedATime) {
+  auto fresh = campaign(5);
+  RunRow again = fresh[1];
+  again.key.limits = "other";
+  again.disposition = Disposition::crash;
+  for (const bool timed : {true, false}) {
+    auto rows = fresh;
+    rows.push_back(again);
+    rows.back().started = "2026-01-02T00:00:00Z";
+    if (!timed) {
+      for (RunRow& row : rows) row.started.clear();
+      EXPECT_THROW(compare_campaigns(campaign(5), rows), std::runtime_error);
+    } else {
+      EXPECT_FALSE(compare_campaigns(campaign(5), rows).findings.empty());
+    }
+  }
+}
+
 TEST(Gate, AMeshThatNeedsNoRepairIsNoRegression) {
   auto base = campaign(5), half = campaign(5);
   const auto add = [](const char* oracle) {
