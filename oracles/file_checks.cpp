@@ -191,7 +191,6 @@ void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighb
   const InputSurface& surface = readings.surface();
   if (conformity.report.passed()) {  // else the deviation means nothing
     report_.deviation = conformity.deviation;
-    report_.deviation_ulps = conformity.deviation_ulps;
     report_.slab = conformity.slab;
     slack_ = conformity.deviation;
   } else if (exact_ == nullptr && undecidable(complex, surface, conformity, kRoundedUlps * ulp_)) {

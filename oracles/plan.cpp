@@ -60,7 +60,6 @@ double Step::ulp_of(const InputSurface& surface) const {
 
 void Step::move_to(VerifyReport& report, double& ulp, double& diagonal) {
   report.deviation += report_.deviation;  // only the file has them
-  report.deviation_ulps += report_.deviation_ulps;
   report.slab += report_.slab;
   report.inverted += report_.inverted;
   report.flat += report_.flat;

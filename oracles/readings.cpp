@@ -41,13 +41,11 @@ Readings::Readings(const Subject& subject, const TetComplex& complex, const Neig
       surface_(surface),
       rounding_(kRoundedUlps * ulp),
       bound_(subject.options.promised.planar_share() * diagonal),
-      declared_(subject.options.declared_deviation * diagonal * (1 + 1e-9)) {
+      declared_(subject.options.declared_deviation * diagonal) {
   const double share = rounding_ / diagonal;
   // A solid may be so small that roundings are a larger share of its diagonal.
   rounded_.largest_tolerance = std::max(rounded_.largest_tolerance, share);
   as_rounded_.largest_tolerance = share;
-  rounded_.least_coordinate = as_rounded_.least_coordinate =
-      std::max(subject.largest_given, surface.largest_coordinate());
 }
 
 ConformityResult Readings::conformity() {
@@ -81,7 +79,7 @@ bool Readings::is_exact() {
 bool Readings::is_rounded() {
   result_ = check(surface_, as_rounded_);
   failed_edges_ = result_.failed_edges;
-  return result_.report.passed() && result_.deviation_ulps <= kRoundedUlps;
+  return result_.report.passed() && result_.deviation <= rounding_;
 }
 
 // Chains that the record gives may be anywhere. Only facets were promised to be no more than planar
@@ -91,11 +89,9 @@ bool Readings::conforms_to(InputSurface flat, double width) {
   as_rounded_.off_plane = rounding_;
   as_rounded_.planar = width > 0 ? bound_ : 0;
   ConformityResult of_flat = check(flat, as_rounded_);
-  const bool near =
-      of_flat.off_edges_ulps <= kRoundedUlps * (1 + 1e-9) || of_flat.off_edges <= declared_;
+  const bool near = of_flat.off_edges <= std::max(rounding_, declared_) * (1 + 1e-9);
   if (!of_flat.report.passed() || !near) return false;
   of_flat.slab = width;
-  of_flat.deviation_ulps = std::max(of_flat.deviation_ulps, kRoundedUlps * width / rounding_);
   of_flat.deviation = std::max(of_flat.deviation, width);
   of_flat.report.figures.emplace_back(
       "facets united",

@@ -54,7 +54,6 @@ class Conformity {
     match_vertices();
     follow_edges();
     result_.off_edges = result_.deviation;
-    result_.off_edges_ulps = result_.deviation_ulps;
     if (!ended()) grow_patches();
     if (!ended()) check_borders();
     if (!ended()) check_facets();
@@ -95,21 +94,9 @@ class Conformity {
   // largest deviation so far? Then its distance need not be known.
   bool surely_seen(const InputSurface::Edge& edge, Index v) const;
   bool surely_seen(const InputSurface::Facet& facet, Index v) const;
-  // How far v is from its place.
-  void deviate(double distance, Index v) {
-    distance *= 1 + 1e-12;  // the few roundings of measuring stay below this factor
-    result_.deviation = std::max(result_.deviation, distance);
-    result_.deviation_ulps = std::max(result_.deviation_ulps, distance / ulp_of(v));
-  }
-  // In the last place of its largest coordinate.
-  double ulp_of(Index v) const {
-    double largest = options_.least_coordinate;
-    for (const double x : points_.nearest(v)) largest = std::max(largest, std::fabs(x));
-    return std::max(std::ldexp(1.0, std::ilogb(std::max(largest, 0x1p-1022)) - 52), 0x1p-1074);
-  }
-  // Less raises neither the deviation nor that in ulp.
-  double seen_at(Index v) const {
-    return std::min(result_.deviation, result_.deviation_ulps * ulp_of(v));
+  void deviate(double distance) {
+    // The few roundings of measuring stay below this factor.
+    result_.deviation = std::max(result_.deviation, distance * (1 + 1e-12));
   }
   void fail(const std::string& what) {
     ++result_.failed_elsewhere;
@@ -161,12 +148,7 @@ void Conformity::match_vertices() {
       fail("input vertex " + std::to_string(v) + " is not on the boundary");
     }
   }
-  for (const Index v : surface_.used_vertices()) {
-    const Index at = match_->of(v);
-    if (at == kNone || at == v || match_->deviation() == 0) continue;
-    if (const double distance = exact::distance(points_, v, at); distance > 0)
-      deviate(distance, at);
-  }
+  deviate(match_->deviation());
   const std::uint64_t moved = match_->moved();
   result_.report.figures.emplace_back("input vertices moved", moved);
   if (moved > 0) result_.report.notes.push_back(std::to_string(moved) + " input vertices moved");
@@ -206,7 +188,7 @@ void Conformity::put_in_chains(const InputSurface::Edge& edge, const std::vector
     const ExactVector off =
         exact::cross(direction, exact::difference(points_, edge.from, chain[i]));
     if (!exact::is_zero(off)) {
-      deviate(length_over(off, direction, points_.exponent()), chain[i]);
+      deviate(length_over(off, direction, points_.exponent()));
     }
   }
 }
@@ -214,7 +196,7 @@ void Conformity::put_in_chains(const InputSurface::Edge& edge, const std::vector
 bool Conformity::surely_seen(const InputSurface::Edge& edge, Index v) const {
   const IntervalVector along = points_.rough_difference(edge.from, edge.to);
   const IntervalVector off = exact::cross(along, points_.rough_difference(edge.from, v));
-  return surely_at_most(exact::dot(off, off), seen_at(v), exact::dot(along, along));
+  return surely_at_most(exact::dot(off, off), result_.deviation, exact::dot(along, along));
 }
 
 bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
@@ -222,7 +204,7 @@ bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
   const Interval off = exact::dot(normal, points_.rough_difference(facet.span[0], v));
   // What is farther than this may be too far for this facet, however far others reach.
   const double own = options_.off_plane > 0 ? facet.slab + options_.off_plane : HUGE_VAL;
-  return surely_at_most(off * off, std::min(seen_at(v), own), exact::dot(normal, normal));
+  return surely_at_most(off * off, std::min(result_.deviation, own), exact::dot(normal, normal));
 }
 
 // Faces beside a chain belong to the facet on that side, and so do those reached without crossing a
@@ -392,15 +374,14 @@ void Conformity::check_folded(Index facet, const std::vector<Face>& folded,
     for (std::size_t i = 0; i < 3; ++i) triangle[i] = points_.nearest(surface_.triangles()[t][i]);
   }
   const double widest = 2 * plane_tolerance(facet), most = most_off_plane(facet, HUGE_VAL);
+  double distance = std::min(result_.deviation, most);
   for (const Face& face : folded) {
-    const Index v = *std::ranges::max_element(face, {}, [&](Index w) { return ulp_of(w); });
     const double width = width_of(face);
     if (!(width <= widest)) return fail_folded(face);
-    const double least = std::max(std::min(seen_at(v), most), width / 2);
-    const double distance = reach_of(face, corners, least, most);
+    distance = reach_of(face, corners, std::max(distance, width / 2), most);
     if (!(distance <= most)) return fail_folded(face);
-    deviate(distance, v);
   }
+  deviate(distance);
   result_.report.notes.push_back(std::to_string(folded.size()) + " faces folded over on " +
                                  facet_name(facet));
 }
@@ -455,7 +436,7 @@ void Conformity::check_in_plane(Index facet, Index v) {
   if (options_.exact || !(distance <= most_off_plane(facet, distance))) {
     fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet));
   } else {
-    deviate(distance, v);
+    deviate(distance);
   }
 }
 

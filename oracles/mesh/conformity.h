@@ -54,9 +54,6 @@ struct ConformityOptions {
   // that count as two only because the mesh has their edge: a point of one may be in the plane of
   // the other. In input units; with off_plane.
   double planar = 0;
-  // Vertices are written in coordinates that are no smaller than this: they may be given here
-  // relative to another origin.
-  double least_coordinate = 0;
   // The first failure ends the check, for a caller who only asks whether there is one.
   bool first_failure_ends = false;
   bool want_chains = false;
@@ -71,11 +68,8 @@ struct ConformityResult {
   // Width of the widest slab that contains a facet made of several (InputSurface::unite_facets), in
   // input units. Set by the caller who united them.
   double slab = 0;
-  double deviation = 0;  // largest distance of a surface vertex from its place, rounded up
-  double deviation_ulps =
-      0;  // the same, each in ulp of the vertex's own coordinates or least_coordinate
-  // The same of the vertices of the surface's edges.
-  double off_edges = 0, off_edges_ulps = 0;
+  double deviation = 0;       // largest distance of a surface vertex from its place, rounded up
+  double off_edges = 0;       // the same of the vertices of the surface's edges
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside
   std::vector<Index> facets;  // per face: the input facet that it tiles, or kNone
   std::uint64_t chain_edges = 0;

@@ -5,7 +5,7 @@
 namespace tetproof::oracles {
 
 void conclude(double ulp, double diagonal, VerifyReport& report) {
-  if (report.deviation_ulps == 0 && ulp > 0) report.deviation_ulps = report.deviation / ulp;
+  report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
   report.deviation_share = diagonal > 0 ? report.deviation / diagonal : 0;
   if (report.any_failed()) {
     report.verdict = Verdict::broken;
