@@ -114,13 +114,8 @@ class Farthest {
   // By boxes that grow until one holds something that is nearer than its sides.
   std::pair<double, Index> nearest(const Position& p) {
     for (double reach = std::max(std::max(lower_, least_), precision_);; reach *= 4) {
-      BoxTree::Box box{p, p};
-      for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] -= reach;
-        box.high[i] += reach;
-      }
       found_.clear();
-      tree_.query(box, found_);
+      tree_.query(box_around(p, reach), found_);
       std::pair<double, Index> best{HUGE_VAL, kNone};
       for (const Index t : found_) {
         best = std::min(best, {distance_to_triangle(p, corners_of(to_, t)), t});
@@ -206,13 +201,8 @@ class Parity {
 
   // Is some triangle so near?
   bool is_near(const Position& p, double distance) {
-    BoxTree::Box box{p, p};
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] -= distance;
-      box.high[i] += distance;
-    }
     found_.clear();
-    tree_.query(box, found_);
+    tree_.query(box_around(p, distance), found_);
     return std::ranges::any_of(found_, [&](Index t) {
       return distance_to_triangle(p, corners_of(surface_, t)) <= distance;
     });

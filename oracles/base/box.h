@@ -34,4 +34,13 @@ inline Box box_of(std::span<const Position> points) {
   return box;
 }
 
+inline Box box_around(const Position& p, double reach) {
+  Box box{p, p};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= reach;
+    box.high[axis] += reach;
+  }
+  return box;
+}
+
 }  // namespace tetproof::oracles
