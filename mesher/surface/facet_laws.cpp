@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/exact_point.h"
 #include "mesher/predicates/stages.h"
@@ -53,14 +54,14 @@ std::vector<std::vector<std::uint32_t>> facets_of(const ChangedSurface& s, Predi
   DisjointSets sets(s.triangles.size());
   for (std::uint32_t h = 0; h < s.opposite.size(); ++h) {
     const std::uint32_t g = s.opposite[h], t = h / 3, u = g / 3;
-    if (h > g || label(t) != label(u) || sets.find(t) == sets.find(u)) continue;
+    if (h > g || label(t) != label(u) || sets.smallest(t) == sets.smallest(u)) continue;
     const auto& [a, b, c] = s.triangles[t];
-    if (predicates.orient3d(a, b, c, s.triangles[u][(g % 3 + 2) % 3]) == 0) sets.unite(t, u);
+    if (predicates.orient3d(a, b, c, s.triangles[u][(g % 3 + 2) % 3]) == 0) sets.join(t, u);
   }
   std::vector<std::vector<std::uint32_t>> facets;
   std::vector<std::size_t> number(s.triangles.size());
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-    const std::uint32_t root = sets.find(t);  // the smallest
+    const std::uint32_t root = sets.smallest(t);
     if (root == t) {
       number[t] = facets.size();
       facets.emplace_back();

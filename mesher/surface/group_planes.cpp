@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "mesher/arithmetic/bounded.h"
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/exact_point.h"
 #include "mesher/predicates/signs_of_doubles.h"
@@ -124,8 +125,8 @@ void GroupPlanes::share() {
     control_.poll();
     for (std::size_t i = 0; i < at.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (same.find(at[i]) != same.find(at[j]) && one_plane(at[i], at[j])) {
-          same.unite(at[i], at[j]);
+        if (same.smallest(at[i]) != same.smallest(at[j]) && one_plane(at[i], at[j])) {
+          same.join(at[i], at[j]);
         }
       }
     }
@@ -133,13 +134,13 @@ void GroupPlanes::share() {
   plane_of_.assign(planes_.size(), kNone);
   for (std::uint32_t g = 0; g < planes_.size(); ++g) {
     if (!growth_.is_group(g)) continue;
-    const std::uint32_t root = same.find(g);
+    const std::uint32_t root = same.smallest(g);
     if (plane_of_[root] == kNone || planes_[g].area > planes_[plane_of_[root]].area) {
       plane_of_[root] = g;
     }
   }
   for (std::uint32_t g = 0; g < planes_.size(); ++g) {
-    if (growth_.is_group(g)) plane_of_[g] = plane_of_[same.find(g)];
+    if (growth_.is_group(g)) plane_of_[g] = plane_of_[same.smallest(g)];
   }
   for (std::vector<std::uint32_t>& at : planes_at_) {
     for (std::uint32_t& g : at) g = plane_of_[g];

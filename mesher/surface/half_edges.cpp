@@ -1,7 +1,6 @@
 #include "mesher/surface/half_edges.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "mesher/base/ids.h"
 
@@ -76,24 +75,6 @@ HalfEdgeGroups::HalfEdgeGroups(const Triangles& triangles, std::size_t vertex_co
     }
     begin_.push_back(half_edges_.size());
   }
-}
-
-DisjointSets::DisjointSets(std::size_t n) : parent_(n) {
-  std::iota(parent_.begin(), parent_.end(), 0U);
-}
-
-std::uint32_t DisjointSets::find(std::uint32_t i) {
-  while (parent_[i] != i) {
-    parent_[i] = parent_[parent_[i]];
-    i = parent_[i];
-  }
-  return i;
-}
-
-void DisjointSets::unite(std::uint32_t i, std::uint32_t j) {
-  i = find(i);
-  j = find(j);
-  if (i != j) parent_[std::max(i, j)] = std::min(i, j);
 }
 
 }  // namespace delmesher::surface

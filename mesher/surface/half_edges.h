@@ -27,15 +27,4 @@ class HalfEdgeGroups {
   std::vector<std::size_t> begin_;
 };
 
-// Disjoint sets with path halving; the representative is the smallest element.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n);
-  std::uint32_t find(std::uint32_t i);
-  void unite(std::uint32_t i, std::uint32_t j);
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace delmesher::surface

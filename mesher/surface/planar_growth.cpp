@@ -8,6 +8,7 @@
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
 #include "mesher/surface/half_edges.h"
@@ -209,12 +210,12 @@ class PlanarGrowth::Merging {
     }
     for (Group& group : growth_.groups_) std::sort(group.triangles.begin(), group.triangles.end());
     for (std::uint32_t& g : growth_.group_of_) {
-      if (g != kNone) g = whole_.find(g);
+      if (g != kNone) g = whole_.smallest(g);
     }
   }
 
  private:
-  std::uint32_t group_of(std::uint32_t t) { return whole_.find(growth_.group_of_[t]); }
+  std::uint32_t group_of(std::uint32_t t) { return whole_.smallest(growth_.group_of_[t]); }
   std::vector<std::uint32_t>& members(std::uint32_t g) { return growth_.groups_[g].triangles; }
 
   // Between two groups. Triangles of one plane bend their edge by no more.
@@ -245,8 +246,8 @@ class PlanarGrowth::Merging {
     if (!std::ranges::all_of(members(b), fits) || !std::ranges::all_of(members(a), fits)) {
       return false;
     }
-    whole_.unite(a, b);
-    const std::uint32_t into = whole_.find(a), from = into == a ? b : a;
+    whole_.join(a, b);
+    const std::uint32_t into = whole_.smallest(a), from = into == a ? b : a;
     fits_[into] = sum;
     members(into).insert(members(into).end(), members(from).begin(), members(from).end());
     members(from).clear();

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mesher/base/check.h"
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/surface/carrier_key.h"
 #include "mesher/surface/half_edges.h"
@@ -93,11 +94,11 @@ class Builder {
       const VertexId c = s.to(SurfaceTopology::next(h)), d = s.to(SurfaceTopology::next(g));
       if (predicates_.orient3d(s.from(h), s.to(h), c, d) != 0) continue;
       s.edge_is_flat[e] = 1;
-      sets.unite(h / 3, g / 3);
+      sets.join(h / 3, g / 3);
     }
     s.facet_of.resize(s.triangles.size());
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-      const std::uint32_t root = sets.find(t);  // the smallest, hence already numbered
+      const std::uint32_t root = sets.smallest(t);  // already numbered
       if (root == t) {
         s.facet_of[t] = static_cast<FacetId>(s.facet_triangles.size());
         s.facet_triangles.emplace_back();

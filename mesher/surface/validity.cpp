@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/base/parallel.h"
 #include "mesher/geometry/box_tree.h"
 #include "mesher/geometry/vector.h"
@@ -223,7 +224,7 @@ class Checker {
       std::vector<std::uint32_t> around;
       for (const std::uint32_t h : group) {
         around.push_back(h / 3);
-        components.unite(h / 3, around[0]);
+        components.join(h / 3, around[0]);
       }
       if (group.size() == 1) {
         add(Kind::open_edge, {a, b}, {a, b}, around,
@@ -247,7 +248,7 @@ class Checker {
   void number_components(DisjointSets& sets) {
     component_of_.resize(triangles_.size());
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      const std::uint32_t root = sets.find(t);  // the smallest, hence already numbered
+      const std::uint32_t root = sets.smallest(t);  // already numbered
       component_of_[t] =
           root == t ? static_cast<std::uint32_t>(result_.report.components++) : component_of_[root];
     }
@@ -266,14 +267,14 @@ class Checker {
         if (repeats_vertex(h / 3)) continue;
         if (first == kNone) first = h;
         for (const VertexId v : {from(h), to(h)}) {
-          corners.unite(corner_at(h, v), corner_at(first, v));
+          corners.join(corner_at(h, v), corner_at(first, v));
         }
       }
     }
     // Roots are the smallest of their sets, so the triangles of the fans come in order.
     std::vector<std::vector<std::uint32_t>> fans(surface_.vertices.size());
     for (std::uint32_t h = 0; h < 3 * triangles_.size(); ++h) {
-      if (corners.find(h) == h && !repeats_vertex(h / 3)) fans[from(h)].push_back(h / 3);
+      if (corners.smallest(h) == h && !repeats_vertex(h / 3)) fans[from(h)].push_back(h / 3);
     }
     for (VertexId v = 0; v < fans.size(); ++v) {
       if (fans[v].size() < 2) continue;
