@@ -23,8 +23,7 @@ enum class Rung : std::uint8_t {
   input_alone,
   all_repairs,
   // The run: the same, where vertices were moved to make facets planar; and with --planar 0 the
-  // mesh
-  // has gone back to the surface as given.
+  // mesh has gone back to the surface as given.
   back_to_given,
   no_planes
 };
