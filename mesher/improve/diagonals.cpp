@@ -314,7 +314,8 @@ class Entry {
         const Vec3 x = add_scaled(on_stand_in, share, subtract(as_given, on_stand_in));
         const Place place = state_.place_on_edge(diagonal_.end, x, length * tolerance);
         if (find_cavity(c, place)) {
-          state_.insert_on_edge(place, ring_, created_, created_faces_);
+          state_.insert_on_surface(place, Mobility::on_line, diagonal_.facet, ring_, created_,
+                                   created_faces_);
           return true;
         }
         state_.forget(place);
