@@ -216,18 +216,49 @@ void improve_as_given(std::size_t before, const std::vector<std::uint8_t>& is_fl
   recorder.spared(improve_final(mesh, s, {returned, before + before / 10}).spared);
 }
 
-// From the stand-in to the surface as given, with all its edges, by local operations.
+// From the planarized surface to the surface as given, with all its edges.
+struct WayBack {
+  const ConformingMesh planarized;
+  Session& s;
+  Recorder& recorder;
+  const std::size_t points = s.points.size();
+  std::optional<ConformingMesh> mesh{};
+
+  bool good_enough() const { return mesh.has_value(); }
+
+  void attempt() {
+    SurfaceTopology as_given = topology_as_given(s);
+    improve::DiagonalsResult entered = improve::enter_diagonals(
+        planarized, s.surface.topology(), as_given, s.surface.given_vertices(),
+        improve_options(Region::hull, s), s.points, s.predicates, s.control);
+    recorder.put_back(entered.diagonals, entered.missing);
+    if (entered.missing == 0 && go_back(entered.mesh, std::move(as_given), s)) {
+      mesh = std::move(entered.mesh);
+    }
+  }
+  void tetrahedrize_again() {
+    s.points.truncate(points);
+    mesh = tetrahedrize_as_given(planarized, s).mesh;
+    if (s.options.region == Region::interior) keep_inside(*mesh);
+  }
+};
+
+constexpr Step<WayBack> kWayBack[] = {
+    {Rung::tetrahedrize_again, [](const WayBack& w) { return !w.s.bounds_edges(); },
+     [](WayBack& w) { w.tetrahedrize_again(); }},
+};
+
 Status put_back(ConformingMesh& mesh, Session& s, Recorder& recorder) {
-  SurfaceTopology as_given = topology_as_given(s);
-  improve::DiagonalsResult entered = improve::enter_diagonals(
-      std::move(mesh), s.surface.topology(), as_given, s.surface.given_vertices(),
-      improve_options(Region::hull, s), s.points, s.predicates, s.control);
-  mesh = std::move(entered.mesh);
-  recorder.put_back(entered.diagonals, entered.missing);
-  if (entered.missing == 0 && go_back(mesh, std::move(as_given), s)) return {};
-  recorder.no_way_back();
-  return {StatusCode::limit_reached, "the mesh found no way back from planar facets",
-          Limit::precision};
+  WayBack way{std::move(mesh), s, recorder};
+  way.attempt();
+  climb(way, kWayBack, recorder.ladder());
+  if (!way.mesh) {
+    recorder.no_way_back();
+    return {StatusCode::limit_reached, "the mesh found no way back from planar facets",
+            Limit::precision};
+  }
+  mesh = std::move(*way.mesh);
+  return {};
 }
 
 // Improves the final mesh; a mesh of the stand-in that goes back is improved before and after.

@@ -254,13 +254,14 @@ std::vector<std::string> limits_texts(const Statistics& s) {
     texts.push_back("the refinement would not end: begun anew " + std::to_string(guard_stops) +
                     " times, at last with empty balls and chamfers up to 90 degrees at " + corners);
   }
-  if (s.planar_given_up) {
+  if (s.planar_given_up || s.ladder[Rung::tetrahedrize_again] > 0) {
     const std::string why = s.diagonals_missing == 0
                                 ? "tetrahedra did not fit the surface as given"
                                 : std::to_string(s.diagonals_missing) + " of " +
                                       std::to_string(s.diagonals) +
                                       " edges within planar facets found no place";
-    texts.push_back(why + ": meshed anew without those facets");
+    texts.push_back(why + (s.planar_given_up ? ": meshed anew without those facets"
+                                             : ": tetrahedrized again with the same vertices"));
   }
   if (s.planar_limit != Limit::none) {
     texts.push_back("meshed anew with facets less planar, which ended at the limit of " +

@@ -99,6 +99,12 @@ TEST(Reports, WhatDoesNotGoBackByLocalOperationsIsTold) {
   EXPECT_NE(limits_texts(s)[0].find("did not fit"), std::string::npos);
   s.diagonals_missing = 2;
   EXPECT_NE(limits_texts(s)[0].find("2 of 9 edges"), std::string::npos);
+  EXPECT_NE(limits_texts(s)[0].find("without those facets"), std::string::npos);
+  s.planar_given_up = false;
+  EXPECT_TRUE(limits_texts(s).empty());
+  s.ladder[Rung::tetrahedrize_again] = 1;
+  ASSERT_EQ(limits_texts(s).size(), 1U);
+  EXPECT_NE(limits_texts(s)[0].find("tetrahedrized again"), std::string::npos);
 }
 
 TEST_F(Told, EndsWithALineOfQualityUnlessQuiet) {
@@ -286,8 +292,8 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
   EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
   EXPECT_EQ(keys(json["ladder"]),
-            "larger_tau empty_balls chamfers_nearby chamfers_everywhere other_orders "
-            "untangle thin_out input_alone all_repairs back_to_given no_planes ");
+            "larger_tau empty_balls chamfers_nearby chamfers_everywhere tetrahedrize_again "
+            "other_orders untangle thin_out input_alone all_repairs back_to_given no_planes ");
   EXPECT_EQ(keys(json["limits"]), "refinement_capped cdt_restarts thinned ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
   EXPECT_EQ(keys(json["rounding"]),

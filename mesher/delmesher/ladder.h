@@ -16,6 +16,8 @@ enum class Rung : std::uint8_t {
   empty_balls,
   chamfers_nearby,
   chamfers_everywhere,
+  // With --planar 0: the mesh goes back to the surface as given.
+  tetrahedrize_again,
   // Rounding: no tetrahedron is inverted or flat, as written or on exact coordinates.
   other_orders,
   untangle,
@@ -23,11 +25,11 @@ enum class Rung : std::uint8_t {
   input_alone,
   all_repairs,
   // The run: the same, where vertices were moved to make facets planar; and with --planar 0 the
-  // mesh has gone back to the surface as given.
+  // mesh has gone back.
   back_to_given,
   no_planes
 };
-inline constexpr std::size_t kRungCount = 11;
+inline constexpr std::size_t kRungCount = 12;
 
 // Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
 struct RungRow {
@@ -48,6 +50,8 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
      "chamfers up to 90 degrees at corners nearby", "tau", "filter, chamfering, refinement"},
     {"chamfers_everywhere", 1, "they are not everywhere",
      "chamfers up to 90 degrees at all corners", "tau", "filter, chamfering, refinement"},
+    {"tetrahedrize_again", 1, "lengths of edges are not bounded", "the surface as given",
+     "points on its edges and in the volume", "a constrained tetrahedrization"},
     {"other_orders", 3, "few defects are left", "repairs in another order", "the mesh",
      "the repairs"},
     {"untangle", 8, "few defects are left", "repairs that move vertices over others", "the mesh",

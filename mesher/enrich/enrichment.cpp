@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/chamfer/removed_surface.h"
@@ -52,8 +53,8 @@ void add_artificial_points(const chamfer::ChamferResult& chamfered,
 // Adds the points of the refined complex on input edges and inside input facets; what else there is
 // on the complex, the box, goes to `vertices` alone.
 void add_complex_points(const chamfer::ChamferResult& chamfered,
-                        const refine::RefineResult& refined, const SurfaceTopology& topology,
-                        const PointStore& points, Predicates& predicates, cdt::CdtInput& input) {
+                        const refine::RefineResult& refined, const PointStore& points,
+                        cdt::CdtInput& input) {
   const Plc& plc = chamfered.plc;
   for (std::size_t n = 0; n < plc.segments.size(); ++n) {
     const std::uint32_t e = plc.segments[n].input_edge;
@@ -72,9 +73,13 @@ void add_complex_points(const chamfer::ChamferResult& chamfered,
       inside.insert(inside.end(), chain.begin(), chain.end());
     }
   }
+}
+
+// Puts the points on edges in order, without repetition, and lists all on the surface as vertices.
+void list_surface_points(Predicates& predicates, cdt::CdtInput& input) {
   for (std::uint32_t e = 0; e < input.on_edge.size(); ++e) {
     std::vector<VertexId>& chain = input.on_edge[e];
-    const auto ends = topology.edge_vertices(e);
+    const auto ends = input.topology->edge_vertices(e);
     sort_unique(chain);
     std::sort(chain.begin(), chain.end(), [&](VertexId a, VertexId b) {
       return a != b && predicates.dot_difference_sign(a, b, ends[0], ends[1]) > 0;
@@ -118,6 +123,29 @@ void drop_coincident(const PointStore& points, Predicates& predicates, cdt::CdtI
   for (auto& list : input.on_facet) prune(list);
 }
 
+// Puts a point on an edge, in its supports as well.
+void put_on_edge(VertexId v, std::uint32_t edge, PointStore& points, cdt::CdtInput& input) {
+  std::vector<std::uint32_t> lines = {edge, input.topology->edge_line[edge]};
+  sort_unique(lines);
+  points.set_supports(v, input.topology->edge_planes(edge), lines);
+  input.on_edge[edge].push_back(v);
+}
+
+// Is a triangle of the surface no farther than `reach` from x?
+bool is_near(const Vec3& x, double reach, const BoxTree& tree, const SurfaceTopology& topology,
+             const PointStore& points) {
+  Box box{x, x};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.lo[k] -= reach;
+    box.hi[k] += reach;
+  }
+  return !tree.query(box, [&](std::uint32_t t) {
+    const auto& [a, b, c] = topology.triangles[t];
+    return point_triangle_distance(x, {points.nearest(a), points.nearest(b), points.nearest(c)}) >
+           reach;
+  });
+}
+
 }  // namespace
 
 cdt::CdtInput plain_input(const SurfaceTopology& topology) {
@@ -138,7 +166,8 @@ cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              Control& control) {
   cdt::CdtInput input = plain_input(topology);
   if (keep_all) add_artificial_points(chamfered, refined, points, input);
-  add_complex_points(chamfered, refined, topology, points, predicates, input);
+  add_complex_points(chamfered, refined, points, input);
+  list_surface_points(predicates, input);
   const chamfer::RemovedSurface removed(chamfered, facet_kept, topology, points);
   const std::vector<double> spacing = spacings(refined, points);
   // A vertex in the plane of a dropped facet would have to be one of the facet's, so even the
@@ -149,6 +178,34 @@ cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
     if (!removed.too_near(points.nearest(v), share * spacing[v])) input.vertices.push_back(v);
   }
   drop_coincident(points, predicates, input);
+  return input;
+}
+
+cdt::CdtInput input_as_given(const ConformingMesh& mesh, const SurfaceTopology& as_given,
+                             double reach, PointStore& points, Predicates& predicates,
+                             Control& control) {
+  cdt::CdtInput input = plain_input(as_given);
+  std::vector<std::uint8_t> seen(points.size());
+  std::fill_n(seen.begin(), as_given.vertex_half_edge.size(), 1);
+  for (const SurfaceFace& face : mesh.boundary) {
+    for (const VertexId v : face.vertices) {
+      if (std::exchange(seen[v], 1) != 0) continue;
+      const PointDefinition d = points.definition(v);
+      if (d.kind != PointKind::on_segment) continue;
+      const std::uint32_t edge = edge_between(as_given, d.corner[0], d.corner[1]);
+      if (edge == kNone || as_given.edge_is_flat[edge] != 0) continue;
+      put_on_edge(v, edge, points, input);
+    }
+  }
+  const BoxTree tree(triangle_boxes(as_given, points));
+  for (const auto& tetrahedron : mesh.tetrahedra) {
+    control.poll(points.size());
+    for (const VertexId v : tetrahedron) {
+      if (std::exchange(seen[v], 1) != 0) continue;
+      if (!is_near(points.nearest(v), reach, tree, as_given, points)) input.vertices.push_back(v);
+    }
+  }
+  list_surface_points(predicates, input);
   return input;
 }
 

@@ -21,4 +21,12 @@ cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              const PointStore& points, Predicates& predicates, bool keep_all,
                              Control& control);
 
+// The surface as given, with vertices of a mesh of one that has the same triangles and vertices
+// within half of `reach`: those on edges that are not flat, and those in the volume farther than
+// `reach` from the surface. `points` has the points of the mesh by their definitions, with the
+// vertices as given; points on edges get supports.
+cdt::CdtInput input_as_given(const ConformingMesh& mesh, const SurfaceTopology& as_given,
+                             double reach, PointStore& points, Predicates& predicates,
+                             Control& control);
+
 }  // namespace delmesher::enrich

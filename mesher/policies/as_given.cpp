@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/enrich/enrichment.h"
 #include "mesher/surface/given_place.h"
 
 namespace delmesher::policies {
@@ -72,6 +73,12 @@ SurfaceTopology build(const Session& session, PointStore& points) {
                         points, predicates);
 }
 
+void enter(SurfaceTopology as_given, PointStore points, Session& session) {
+  session.surface.return_to_given(std::move(as_given),
+                                  vertices_of(session.points, session.input_vertices()));
+  session.points = std::move(points);
+}
+
 }  // namespace
 
 bool goes_back(const Options& options) {
@@ -90,10 +97,27 @@ bool go_back(const ConformingMesh& mesh, SurfaceTopology as_given, Session& sess
   PointStore vertices;
   build(session, vertices);  // for the supports of the vertices
   set_supports(mesh, session, as_given, vertices, points);
-  session.surface.return_to_given(std::move(as_given),
-                                  vertices_of(session.points, session.input_vertices()));
-  session.points = std::move(points);
+  enter(std::move(as_given), std::move(points), session);
   return true;
+}
+
+cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, Session& session) {
+  PointStore points;
+  SurfaceTopology as_given = build(session, points);
+  append_as_given(session.points, session.surface.given_vertices(), points);
+  double farthest = 0;
+  for (VertexId v = 0; v < session.input_vertices(); ++v) {
+    farthest = std::max(farthest, distance(points.nearest(v), session.points.nearest(v)));
+  }
+  Predicates predicates(points);
+  // Twice, and more than doubles err.
+  const double reach = 2 * farthest + 0x1p-40 * session.diagonal;
+  cdt::CdtInput input =
+      enrich::input_as_given(mesh, as_given, reach, points, predicates, session.control);
+  enter(std::move(as_given), std::move(points), session);
+  input.topology = &session.surface.topology();
+  return cdt::constrained_delaunay_tetrahedrization(input, session.points, session.predicates,
+                                                    session.control);
 }
 
 }  // namespace delmesher::policies

@@ -19,4 +19,9 @@ SurfaceTopology topology_as_given(const Session& session);
 // points and topology are those of the surface as given from now on. Otherwise nothing changes.
 bool go_back(const ConformingMesh& mesh, SurfaceTopology as_given, Session& session);
 
+// Where that fails: the constrained Delaunay tetrahedrization of the surface as given, with the
+// vertices of a mesh of the planarized surface (enrich::input_as_given). The session is one of the
+// surface as given from now on. New points are appended.
+cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, Session& session);
+
 }  // namespace delmesher::policies
