@@ -3,7 +3,7 @@
 namespace delmesher::output {
 
 bool LocalOperations::fix(TetId t, bool exact_too) {
-  judge_.ask(exact_too);
+  mesh_.ask_exact_points(exact_too);
   for (int i = 0; i < 4; ++i) {
     for (int j = i + 1; j < 4; ++j) {
       if (remove_edge(t, i, j)) return true;
@@ -13,21 +13,15 @@ bool LocalOperations::fix(TetId t, bool exact_too) {
     if (remove_face(t, i)) return true;
   }
   for (int i = 0; i < 4; ++i) {
-    if (collapse(mesh_.tet(t)[i])) return true;
+    if (collapse(mesh_.mesh.tet(t)[i])) return true;
   }
   return false;
 }
 
-bool LocalOperations::Judge::is_positive(const Tet& t) {
-  if (mesh_.sign_of(t) <= 0) return false;
-  return !exact_too_ || exact_.orient3d(mesh_.store_id(t[0]), mesh_.store_id(t[1]),
-                                        mesh_.store_id(t[2]), mesh_.store_id(t[3])) > 0;
-}
-
-bool LocalOperations::Judge::add(TetId t, int i, VertexId w, bool&) {
-  Tet moved = mesh_.tet(t);
+bool LocalOperations::Judge::add(TetId t, int i, VertexId w, bool&) const {
+  Tet moved = mesh.mesh.tet(t);
   moved[i] = w;
-  return is_positive(moved);
+  return mesh.is_positive(moved);
 }
 
 bool LocalOperations::remove_edge(TetId t, int i, int j) {
@@ -49,9 +43,9 @@ bool LocalOperations::collapse(VertexId v) {
   if (w == kNone) return false;
   Change change{vertices_.star(), {}, {}};
   for (const TetId t : vertices_.star()) {
-    if (mesh_.topology().index_of(t, w) >= 0) continue;
-    CreatedTet tet{mesh_.tet(t), mesh_.region(t)};
-    tet.vertices[mesh_.topology().index_of(t, v)] = w;
+    if (mesh_.mesh.index_of(t, w) >= 0) continue;
+    CreatedTet tet{mesh_.mesh.tet(t), mesh_.mesh.region(t)};
+    tet.vertices[mesh_.mesh.index_of(t, v)] = w;
     change.created.push_back(tet);
   }
   return mesh_.accept(change);

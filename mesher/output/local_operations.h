@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mesher/output/rounded_mesh.h"
-#include "mesher/predicates/predicates.h"
 #include "mesher/tetmesh/contract_edge.h"
 #include "mesher/tetmesh/remove_edge.h"
 #include "mesher/tetmesh/remove_faces.h"
@@ -11,12 +10,8 @@ namespace delmesher::output {
 
 class LocalOperations {
  public:
-  LocalOperations(RoundedMesh& mesh, const PointStore& exact_points)
-      : mesh_(mesh),
-        judge_(mesh, exact_points),
-        edges_(mesh.topology()),
-        faces_(mesh.topology()),
-        vertices_(mesh.topology()) {}
+  explicit LocalOperations(RoundedMesh& mesh)
+      : mesh_(mesh), judge_{mesh}, edges_(mesh.mesh), faces_(mesh.mesh), vertices_(mesh.mesh) {}
 
   // Removes the bad tetrahedron t by an operation whose new tetrahedra are all positive on the
   // rounded coordinates; with `exact_too`, also on the exact ones, so that the result is valid in
@@ -27,13 +22,9 @@ class LocalOperations {
 
  private:
   // All that counts is that tetrahedra are positive.
-  class Judge {
-   public:
+  struct Judge {
     using Value = bool;
-    Judge(RoundedMesh& mesh, const PointStore& exact_points) : mesh_(mesh), exact_(exact_points) {}
-
-    void ask(bool exact_too) { exact_too_ = exact_too; }
-    bool is_positive(const Tet& tet);
+    RoundedMesh& mesh;
 
     static bool nothing() { return true; }
     static bool impossible() { return false; }
@@ -42,17 +33,12 @@ class LocalOperations {
     static bool is_known(TetId) { return false; }
     static void begin(RegionId) {}
     static bool may_join(VertexId, VertexId) { return true; }
-    bool add(const Tet& tet, bool&) { return is_positive(tet); }
-    bool add(TetId t, int i, VertexId w, bool&);
-    bool value_of(const Tet& tet, RegionId) { return is_positive(tet); }
+    bool add(const Tet& tet, bool&) const { return mesh.is_positive(tet); }
+    bool add(TetId t, int i, VertexId w, bool&) const;
+    bool value_of(const Tet& tet, RegionId) const { return mesh.is_positive(tet); }
     static bool is_worth(bool value, bool best) { return value && !best; }
     static bool is_better(bool value, bool best) { return value && !best; }
     static bool is_enough(bool value) { return value; }
-
-   private:
-    RoundedMesh& mesh_;
-    Predicates exact_;
-    bool exact_too_ = true;
   };
 
   bool remove_edge(TetId t, int i, int j);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "mesher/output/local_operations.h"
 #include "mesher/output/vertex_moves.h"
@@ -19,25 +20,24 @@ struct Scene {
 
   VertexId add(double x, double y, double z, bool fixed, bool on_surface = false) {
     const VertexId v = points.add_explicit(x, y, z);
-    input.fixed.push_back(fixed ? 1 : 0);
-    input.on_surface.push_back(on_surface ? 1 : 0);
+    input.mobility.push_back(fixed        ? Mobility::fixed
+                             : on_surface ? Mobility::in_plane
+                                          : Mobility::free);
     return v;
   }
-  RoundedMesh mesh() {
+  const NearestMesh& nearest() {
     input.points = &points;
-    input.mesh.region.assign(input.mesh.tetrahedra.size(), 1);
-    given_ = input;
-    return {given_, control};
+    input.mesh.region.resize(input.mesh.tetrahedra.size(), 1);
+    return nearest_.emplace(input, control);
   }
+  RoundedMesh mesh() { return RoundedMesh(nearest()); }
 
  private:
-  RoundingInput given_;  // the mesh takes its tetrahedra from it
+  std::optional<NearestMesh> nearest_;
 };
 
 std::size_t alive(const RoundedMesh& mesh) {
-  std::size_t count = 0;
-  for (std::uint32_t t = 0; t < mesh.slots(); ++t) count += mesh.alive(t) ? 1 : 0;
-  return count;
+  return mesh.mesh.tetrahedra();
 }
 
 // An octahedron of radius 1, coned from a volume vertex (the last) at the given place.
@@ -67,7 +67,6 @@ TEST(VertexMoves, BringsAVolumeVertexBackIntoItsStar) {
     Scene s = octahedron(far, 0.7 * far, 0.1 * far);
     RoundedMesh mesh = s.mesh();
     ASSERT_FALSE(mesh.bad().empty());
-    mesh.prepare_repairs();
     VertexMoves moves(mesh);
     for (int i = 0; i < 10 && !mesh.bad().empty(); ++i) moves.fix(*mesh.bad().begin());
     EXPECT_TRUE(mesh.bad().empty()) << far;
@@ -76,16 +75,13 @@ TEST(VertexMoves, BringsAVolumeVertexBackIntoItsStar) {
 
 TEST(VertexMoves, LeavesFixedVerticesAndKeepsSurfaceVerticesNear) {
   Scene s = octahedron(1.5, 0, 0);
-  s.input.fixed[6] = 1;
+  s.input.mobility[6] = Mobility::fixed;
   {
     RoundedMesh mesh = s.mesh();
-    mesh.prepare_repairs();
     EXPECT_FALSE(VertexMoves(mesh).fix(*mesh.bad().begin()));
   }
-  s.input.fixed[6] = 0;
-  s.input.on_surface[6] = 1;
+  s.input.mobility[6] = Mobility::in_plane;
   RoundedMesh mesh = s.mesh();
-  mesh.prepare_repairs();
   EXPECT_FALSE(VertexMoves(mesh).fix(*mesh.bad().begin()));
   EXPECT_EQ(mesh.position(6), (Vec3{1.5, 0, 0}));
 }
@@ -95,7 +91,6 @@ TEST(VertexMoves, TakesTheShortestMove) {
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad().size(), 1U);
   ASSERT_EQ(mesh.sign(*mesh.bad().begin()), 0);
-  mesh.prepare_repairs();
   EXPECT_TRUE(VertexMoves(mesh).fix(*mesh.bad().begin()));
   EXPECT_TRUE(mesh.bad().empty());
   double moved = 0;
@@ -113,7 +108,6 @@ TEST(VertexMoves, EachCoordinateHasStepsOfItsOwn) {
   s.input.mesh.tetrahedra = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}};
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad(), (std::set<std::uint32_t>{3}));
-  mesh.prepare_repairs();
   EXPECT_TRUE(VertexMoves(mesh).fix(3));
   EXPECT_TRUE(mesh.bad().empty());
   const Vec3& p = mesh.position(4);
@@ -136,7 +130,6 @@ TEST(VertexMoves, ChainsMakeRoom) {
                                {5, 1, 2, 3}, {0, 5, 2, 3}, {0, 1, 5, 3}};
     RoundedMesh mesh = s.mesh();
     ASSERT_EQ(mesh.bad(), (std::set<std::uint32_t>{0}));
-    mesh.prepare_repairs();
     VertexMoves moves(mesh);
     EXPECT_FALSE(moves.fix(0));
     const std::uint32_t before = mesh.clock();
@@ -153,10 +146,9 @@ TEST(VertexMoves, ChainsMakeRoom) {
 // A vertex on a face of its star may go there by a step, but so may the corners of that face.
 TEST(VertexMoves, MovesVerticesOfTheVolumeFirst) {
   Scene s = octahedron(0.5, 0.25, 0.25);
-  std::fill(s.input.fixed.begin(), s.input.fixed.end(), 0);
+  std::fill_n(s.input.mobility.begin(), 6, Mobility::in_plane);
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad().size(), 1U);
-  mesh.prepare_repairs();
   EXPECT_TRUE(VertexMoves(mesh).fix(*mesh.bad().begin()));
   EXPECT_TRUE(mesh.bad().empty());
   for (std::uint32_t v = 0; v < 6; ++v) EXPECT_EQ(mesh.position(v), mesh.home(v)) << v;
@@ -185,11 +177,10 @@ TEST(VertexMoves, SeparatingDoesNoHarm) {
       s.input.mesh.tetrahedra.push_back({e, d, f, w});
       RoundedMesh mesh = s.mesh();
       ASSERT_TRUE(mesh.bad().empty());
-      ASSERT_EQ(mesh.coincident().size(), 1U);
-      mesh.prepare_repairs();
+      ASSERT_EQ(mesh.nearest().coincident(mesh.positions()).size(), 1U);
       EXPECT_TRUE(VertexMoves(mesh).separate(v));
       EXPECT_TRUE(mesh.bad().empty()) << axis << " " << side;
-      EXPECT_TRUE(mesh.coincident().empty());
+      EXPECT_TRUE(mesh.nearest().coincident(mesh.positions()).empty());
     }
   }
 }
@@ -203,7 +194,6 @@ TEST(VertexMoves, UntanglingTakesStepsOfTheSurface) {
   s.input.mesh.tetrahedra = {{0, 1, 2, 3}};
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad().size(), 1U);
-  mesh.prepare_repairs();
   EXPECT_TRUE(VertexMoves(mesh).untangle(s.control));
   EXPECT_TRUE(mesh.bad().empty());
 }
@@ -211,11 +201,9 @@ TEST(VertexMoves, UntanglingTakesStepsOfTheSurface) {
 // And soon: with its budget alone as limit it would decide a million signs.
 TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
   Scene s = octahedron(1.5, 0, 0);
-  s.input.on_surface[6] = 1;
-  for (const int fixed : {0, 1}) {
-    s.input.fixed[6] = static_cast<std::uint8_t>(fixed);
+  for (const Mobility mobility : {Mobility::in_plane, Mobility::fixed}) {
+    s.input.mobility[6] = mobility;
     RoundedMesh mesh = s.mesh();
-    mesh.prepare_repairs();
     const std::uint64_t before = mesh.signs();
     EXPECT_FALSE(VertexMoves(mesh).untangle(s.control));
     EXPECT_FALSE(mesh.bad().empty());
@@ -226,9 +214,8 @@ TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
 // Not even an attempt is made at tetrahedra of which no vertex may move.
 TEST(VertexMoves, UntanglingTriesNothingWhereNothingMayMove) {
   Scene s = octahedron(1.5, 0, 0);
-  s.input.fixed[6] = 1;
+  s.input.mobility[6] = Mobility::fixed;
   RoundedMesh mesh = s.mesh();
-  mesh.prepare_repairs();
   int asked = 0;
   Limits options;
   options.progress = [&](const Progress&) { return ++asked < 1000; };
@@ -242,8 +229,7 @@ TEST(LocalOperations, CollapsesAVolumeVertexOutsideItsStar) {
   // touch the vertex it goes to. Flips cannot help with a vertex this far out.
   Scene s = octahedron(40, 30, 20);
   RoundedMesh mesh = s.mesh();
-  mesh.prepare_repairs();
-  EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_TRUE(LocalOperations(mesh).fix(*mesh.bad().begin(), true));
   EXPECT_TRUE(mesh.bad().empty());
   EXPECT_EQ(alive(mesh), 4U);
   EXPECT_TRUE(mesh.star(6).empty());
@@ -251,10 +237,9 @@ TEST(LocalOperations, CollapsesAVolumeVertexOutsideItsStar) {
 
 TEST(LocalOperations, DoesNotCollapseSurfaceVertices) {
   Scene s = octahedron(40, 30, 20);
-  s.input.on_surface[6] = 1;
+  s.input.mobility[6] = Mobility::in_plane;
   RoundedMesh mesh = s.mesh();
-  mesh.prepare_repairs();
-  EXPECT_FALSE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_FALSE(LocalOperations(mesh).fix(*mesh.bad().begin(), true));
   EXPECT_EQ(alive(mesh), 8U);
 }
 
@@ -280,9 +265,8 @@ TEST(LocalOperations, RemovesEdges) {
     Scene s = ring(n, 1.1);
     RoundedMesh mesh = s.mesh();
     ASSERT_FALSE(mesh.bad().empty());
-    mesh.prepare_repairs();
     // Removing the edge replaces n tetrahedra by two for each of n - 2 triangles.
-    const bool possible = LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true);
+    const bool possible = LocalOperations(mesh).fix(*mesh.bad().begin(), true);
     EXPECT_TRUE(possible) << n;
     EXPECT_TRUE(mesh.bad().empty());
     EXPECT_EQ(alive(mesh), 2U * (n - 2));
@@ -304,8 +288,7 @@ TEST(LocalOperations, RemovesAnEdgeInAStar) {
     }
     RoundedMesh mesh = s.mesh();
     ASSERT_FALSE(mesh.bad().empty());
-    mesh.prepare_repairs();
-    EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true)) << turn;
+    EXPECT_TRUE(LocalOperations(mesh).fix(*mesh.bad().begin(), true)) << turn;
     EXPECT_TRUE(mesh.bad().empty());
     EXPECT_EQ(alive(mesh), 2U * (6 - 2)) << turn;
   }
@@ -320,8 +303,7 @@ TEST(LocalOperations, MakesNothingFlat) {
   for (const bool exact_too : {false, true}) {
     RoundedMesh mesh = s.mesh();
     ASSERT_EQ(mesh.bad().size(), 1U);
-    mesh.prepare_repairs();
-    EXPECT_FALSE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), exact_too));
+    EXPECT_FALSE(LocalOperations(mesh).fix(*mesh.bad().begin(), exact_too));
     EXPECT_EQ(alive(mesh), 2U);
   }
 }
@@ -338,15 +320,12 @@ TEST(LocalOperations, KeepsBoundaryFacesAndFlags) {
   Scene s = ring(5, 1.1);
   s.input.mesh.boundary.push_back({{1, 3, 0}, 0});
   RoundedMesh kept = s.mesh();
-  kept.prepare_repairs();
-  EXPECT_FALSE(LocalOperations(kept, s.points).fix(*kept.bad().begin(), true));
+  EXPECT_FALSE(LocalOperations(kept).fix(*kept.bad().begin(), true));
 
   s.input.mesh.boundary.clear();
-  s.input.points = &s.points;
   s.input.mesh.region = {1, 1, 1, 0, 0};
-  RoundedMesh mixed(s.input, s.control);
-  mixed.prepare_repairs();
-  EXPECT_FALSE(LocalOperations(mixed, s.points).fix(*mixed.bad().begin(), true));
+  RoundedMesh mixed = s.mesh();
+  EXPECT_FALSE(LocalOperations(mixed).fix(*mixed.bad().begin(), true));
 }
 
 TEST(LocalOperations, RemovesFaces) {
@@ -357,8 +336,7 @@ TEST(LocalOperations, RemovesFaces) {
   s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   RoundedMesh mesh = s.mesh();
   ASSERT_EQ(mesh.bad().size(), 1U);
-  mesh.prepare_repairs();
-  EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_TRUE(LocalOperations(mesh).fix(*mesh.bad().begin(), true));
   EXPECT_TRUE(mesh.bad().empty());
   EXPECT_EQ(alive(mesh), 3U);
 }
@@ -373,8 +351,7 @@ TEST(LocalOperations, MakesNoEdgeTwice) {
                                {1, 3, 5, 6}, {0, 1, 4, 6}, {1, 4, 6, 5}};
     if (taken) s.input.mesh.tetrahedra.push_back({3, 4, 5, 6});
     RoundedMesh mesh = s.mesh();
-    mesh.prepare_repairs();
-    EXPECT_EQ(LocalOperations(mesh, s.points).fix(1, true), !taken);
+    EXPECT_EQ(LocalOperations(mesh).fix(1, true), !taken);
     EXPECT_EQ(alive(mesh), 7U);
   }
 }
@@ -387,9 +364,8 @@ TEST(LocalOperations, KeepsTetrahedraWhereTheMeshTouchesItself) {
   s.add(-1, 0, 0, true), s.add(0, -1, 0, true), s.add(0, 0, -1, true);
   s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {0, 5, 6, 7}};
   RoundedMesh mesh = s.mesh();
-  mesh.prepare_repairs();
   EXPECT_EQ(mesh.star(0).size(), 3U);
-  EXPECT_FALSE(LocalOperations(mesh, s.points).fix(1, true));
+  EXPECT_FALSE(LocalOperations(mesh).fix(1, true));
   EXPECT_EQ(alive(mesh), 3U);
 }
 
@@ -415,8 +391,7 @@ TEST(LocalOperations, MakesNoFaceThrice) {
       if (taken) s.input.mesh.tetrahedra.push_back({moved(2), moved(3), moved(4), 5});
       RoundedMesh mesh = s.mesh();
       ASSERT_FALSE(mesh.bad().empty());
-      mesh.prepare_repairs();
-      EXPECT_EQ(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true), !taken);
+      EXPECT_EQ(LocalOperations(mesh).fix(*mesh.bad().begin(), true), !taken);
     }
   }
 }
@@ -428,13 +403,12 @@ TEST(LocalOperations, MayAskForExactPositions) {
   s.add(5, 5, -0.5, true), s.add(1, 1, 2, true);
   s.input.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   RoundedMesh mesh = s.mesh();
-  mesh.prepare_repairs();
   EXPECT_TRUE(mesh.bad().empty());
   mesh.move(3, {1, 1, 0});
   ASSERT_EQ(mesh.bad().size(), 1U);
-  EXPECT_FALSE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_FALSE(LocalOperations(mesh).fix(*mesh.bad().begin(), true));
   EXPECT_EQ(alive(mesh), 2U);
-  EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), false));
+  EXPECT_TRUE(LocalOperations(mesh).fix(*mesh.bad().begin(), false));
   EXPECT_EQ(alive(mesh), 3U);
 }
 

@@ -6,7 +6,6 @@
 #include "mesher/base/check.h"
 #include "mesher/base/face_key.h"
 #include "mesher/geometry/vector.h"
-#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::output {
 namespace {
@@ -18,47 +17,122 @@ bool has(const List& list, std::uint32_t value) {
 
 }  // namespace
 
-RoundedMesh::RoundedMesh(RoundingInput& input, Control& control)
-    : input_(input), tet_(std::move(input.mesh.tetrahedra)), region_(std::move(input.mesh.region)) {
-  DELMESHER_CHECK(region_.size() == tet_.size(), "there are not as many regions as tetrahedra");
-  number_vertices();
-  certify(control);
+NearestMesh::NearestMesh(RoundingInput input, Control& control)
+    : mesh(std::move(input.mesh)),
+      points(*input.points),
+      frame(input.frame),
+      place(std::move(input.place)) {
+  DELMESHER_CHECK(mesh.region.size() == mesh.tetrahedra.size(),
+                  "there are not as many regions as tetrahedra");
+  std::vector<VertexId> number(points.size(), kNone);
+  for (const Tet& t : mesh.tetrahedra) {
+    for (const VertexId v : t) number[v] = 0;
+  }
+  for (VertexId p = 0; p < number.size(); ++p) {
+    if (number[p] == kNone) continue;
+    number[p] = static_cast<VertexId>(point.size());
+    by_home.push_back(number[p]);
+    point.push_back(p);
+    mobility.push_back(input.mobility[p]);
+    home.push_back(frame.written(local_home(number[p])));
+  }
+  for (Tet& t : mesh.tetrahedra) {
+    for (VertexId& v : t) v = number[v];
+  }
+  for (SurfaceFace& face : mesh.boundary) {
+    for (VertexId& v : face.vertices) v = number[v];
+  }
+  std::stable_sort(by_home.begin(), by_home.end(),
+                   [&](VertexId v, VertexId w) { return home[v] < home[w]; });
+  sign.reserve(mesh.tetrahedra.size());
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    control.poll(0, static_cast<double>(sign.size()) / static_cast<double>(sign.capacity()));
+    sign.push_back(static_cast<std::int8_t>(orient3d_sign(home[a], home[b], home[c], home[d])));
+    bad += sign.back() > 0 ? 0 : 1;
+  }
 }
 
-double RoundedMesh::home_error(std::uint32_t v) const {
-  const double error = approximation(v).error;
-  if (!frame().moved()) return error;
-  const Vec3 d = subtract(home(v), nearest(store_id_[v]));
+double NearestMesh::home_error(VertexId v) const {
+  const double error = points.approximation(point[v]).error;
+  if (!frame.moved()) return error;
+  const Vec3 d = subtract(home[v], local_home(v));
   return (error + largest_component(d)) * (1 + 0x1p-50);
 }
 
-void RoundedMesh::number_vertices() {
-  std::vector<std::uint32_t> local(input_.points->size(), kNone);
-  for (const Tet& t : tet_) {
-    for (const std::uint32_t v : t) local[v] = 0;
+double NearestMesh::largest_of_surface() const {
+  double largest = 0;
+  const auto take = [&](VertexId v) {
+    largest = std::max(largest, largest_component(frame.given(home[v])));
+  };
+  for (const SurfaceFace& face : mesh.boundary) {
+    for (const VertexId v : face.vertices) take(v);
   }
-  for (VertexId v = 0; v < local.size(); ++v) {
-    if (local[v] == kNone) continue;
-    local[v] = static_cast<std::uint32_t>(store_id_.size());
-    store_id_.push_back(v);
-    position_.push_back(placed(v));
+  for (VertexId v = 0; mesh.boundary.empty() && v < point.size(); ++v) {
+    if (on_surface(v)) take(v);
   }
-  for (Tet& t : tet_) {
-    for (std::uint32_t& v : t) v = local[v];
-  }
-  by_position_.resize(store_id_.size());
-  for (std::uint32_t v = 0; v < by_position_.size(); ++v) by_position_[v] = v;
-  std::stable_sort(by_position_.begin(), by_position_.end(),
-                   [&](std::uint32_t v, std::uint32_t w) { return position_[v] < position_[w]; });
+  return largest;
 }
 
-void RoundedMesh::certify(Control& control) {
-  sign_.resize(tet_.size());
-  for (TetId t = 0; t < tet_.size(); ++t) {
-    control.poll(0, static_cast<double>(t) / static_cast<double>(tet_.size()));
-    sign_[t] = 1;
-    set_sign(t, sign_of(tet_[t]));
+std::vector<std::vector<VertexId>> NearestMesh::coincident(std::span<const Vec3> position) const {
+  // Moves never end at other vertices (occupied), so only vertices that have not moved can
+  // coincide.
+  std::vector<std::vector<VertexId>> groups;
+  std::vector<VertexId> group;
+  const auto close = [&] {
+    if (group.size() > 1) groups.push_back(group);
+    group.clear();
+  };
+  for (const VertexId v : by_home) {
+    if (position[v] != home[v]) continue;
+    if (!group.empty() && position[group.back()] != position[v]) close();
+    group.push_back(v);
   }
+  close();
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
+RoundedMesh::RoundedMesh(const NearestMesh& nearest)
+    : PlacedMesh(MeshTopology(nearest.mesh.tetrahedra, nearest.mesh.region, nearest.mesh.boundary,
+                              nearest.point.size()),
+                 nearest.point),
+      nearest_(nearest),
+      predicates_(nearest.points),
+      sign_(nearest.sign) {
+  position_ = nearest.home;
+  mobility_ = nearest.mobility;
+  for (TetId t = 0; t < sign_.size(); ++t) {
+    if (sign_[t] <= 0) bad_.insert(t);
+  }
+  find_pinched();
+}
+
+void RoundedMesh::find_pinched() {
+  std::vector<std::uint32_t> degree(mesh.vertices(), 0);
+  for (TetId t = 0; t < mesh.slots(); ++t) {
+    for (const VertexId v : mesh.tet(t)) ++degree[v];
+  }
+  std::vector<TetId> star;
+  for (VertexId v = 0; v < mesh.vertices(); ++v) {
+    mesh.star(v, star);
+    if (star.size() < degree[v]) pinched_[v];
+  }
+  for (TetId t = 0; t < mesh.slots() && !pinched_.empty(); ++t) {
+    for (const VertexId v : mesh.tet(t)) {
+      if (const auto at = pinched_.find(v); at != pinched_.end()) at->second.push_back(t);
+    }
+  }
+}
+
+void RoundedMesh::ask_exact_points(bool ask) {
+  exact_.clear();
+  if (ask) exact_.push_back(&predicates_);
+}
+
+void RoundedMesh::note(TetId t) {
+  ++signs_;
+  sign_.resize(mesh.slots(), 1);
+  set_sign(t, sign_of(mesh.tet(t)));
 }
 
 void RoundedMesh::set_sign(TetId t, int sign) {
@@ -67,98 +141,19 @@ void RoundedMesh::set_sign(TetId t, int sign) {
   if (sign <= 0) bad_.insert(t);
 }
 
-int RoundedMesh::sign_of(const Tet& t) {
-  ++signs_;
-  return orient3d_sign(position_[t[0]], position_[t[1]], position_[t[2]], position_[t[3]]);
-}
-
-int RoundedMesh::sign_at(TetId t, std::uint32_t v, const Vec3& p) {
-  const Vec3* x[4];
-  for (int i = 0; i < 4; ++i) x[i] = tet(t)[i] == v ? &p : &position_[tet(t)[i]];
-  ++signs_;
-  return orient3d_sign(*x[0], *x[1], *x[2], *x[3]);
-}
-
-std::vector<std::vector<std::uint32_t>> RoundedMesh::coincident() const {
-  // Moves never end at other vertices (occupied), so only vertices that have not moved can
-  // coincide.
-  std::vector<std::vector<std::uint32_t>> groups;
-  std::vector<std::uint32_t> group;
-  const auto close = [&] {
-    if (group.size() > 1) groups.push_back(group);
-    group.clear();
-  };
-  for (const std::uint32_t v : by_position_) {
-    if (position_[v] != home(v)) continue;
-    if (!group.empty() && position_[group.back()] != position_[v]) close();
-    group.push_back(v);
-  }
-  close();
-  std::sort(groups.begin(), groups.end());
-  return groups;
-}
-
-void RoundedMesh::prepare_repairs() {
-  changed_at_.assign(vertices(), 0);
-  const auto local = [&](VertexId v) {
-    const auto at = std::ranges::lower_bound(store_id_, v);
-    DELMESHER_CHECK(at != store_id_.end() && *at == v, "a boundary vertex is in no tetrahedron");
-    return static_cast<std::uint32_t>(at - store_id_.begin());
-  };
-  std::vector<SurfaceFace> boundary = input_.mesh.boundary;
-  for (SurfaceFace& face : boundary) {
-    for (VertexId& v : face.vertices) v = local(v);
-  }
-  topology_.emplace(std::move(tet_), region_, boundary, vertices());
-  region_.clear();
-  find_pinched();
-}
-
-// Only the refined mesh has such vertices (--approximate), where what is inside touches itself.
-void RoundedMesh::find_pinched() {
-  std::vector<std::uint32_t> degree(vertices(), 0);
-  for (TetId t = 0; t < slots(); ++t) {
-    for (const std::uint32_t v : tet(t)) ++degree[v];
-  }
-  std::vector<TetId> star;
-  for (std::uint32_t v = 0; v < vertices(); ++v) {
-    topology_->star(v, star);
-    if (star.size() < degree[v]) pinched_[v];
-  }
-  for (TetId t = 0; t < slots() && !pinched_.empty(); ++t) {
-    for (const std::uint32_t v : tet(t)) {
-      if (const auto at = pinched_.find(v); at != pinched_.end()) at->second.push_back(t);
-    }
-  }
-}
-
-double RoundedMesh::largest_of_surface() const {
-  double largest = 0;
-  const auto take = [&](VertexId point) {
-    largest = std::max(largest, largest_component(frame().given(placed(point))));
-  };
-  for (const SurfaceFace& face : input_.mesh.boundary) {
-    for (const VertexId v : face.vertices) take(v);
-  }
-  for (std::uint32_t v = 0; input_.mesh.boundary.empty() && v < vertices(); ++v) {
-    if (fixed(v) || on_surface(v)) take(store_id_[v]);
-  }
-  return largest;
-}
-
-std::vector<TetId> RoundedMesh::star(std::uint32_t v) const {
+std::vector<TetId> RoundedMesh::star(VertexId v) const {
   if (const auto pinched = pinched_.find(v); pinched != pinched_.end()) return pinched->second;
   std::vector<TetId> star;
-  if (topology_->incident(v) == kNone) return star;
-  topology_->star(v, star);
+  if (mesh.incident(v) == kNone) return star;
+  mesh.star(v, star);
   std::ranges::sort(star);
   return star;
 }
 
-bool RoundedMesh::is_enclosed(std::uint32_t v) const {
+bool RoundedMesh::is_enclosed(VertexId v) const {
   return std::ranges::all_of(star(v), [&](TetId t) {
     for (int i = 0; i < 4; ++i) {
-      if (tet(t)[i] != v && topology_->neighbor(t, i) == kNone) return false;
+      if (mesh.tet(t)[i] != v && mesh.neighbor(t, i) == kNone) return false;
     }
     return true;
   });
@@ -166,53 +161,45 @@ bool RoundedMesh::is_enclosed(std::uint32_t v) const {
 
 bool RoundedMesh::occupied(const Vec3& p) const {
   if (moved_to_.contains(p)) return true;
-  auto at = std::lower_bound(by_position_.begin(), by_position_.end(), p,
-                             [&](std::uint32_t v, const Vec3& q) { return home(v) < q; });
-  for (; at != by_position_.end() && home(*at) == p; ++at) {
+  auto at = std::ranges::lower_bound(nearest_.by_home, p, {}, [&](VertexId v) { return home(v); });
+  for (; at != nearest_.by_home.end() && home(*at) == p; ++at) {
     if (position_[*at] == p) return true;
   }
   return false;
 }
 
-void RoundedMesh::move(std::uint32_t v, const Vec3& p) {
+void RoundedMesh::move(VertexId v, const Vec3& p) {
   if (position_[v] != home(v)) {
     const auto from = moved_to_.find(position_[v]);
     if (--from->second == 0) moved_to_.erase(from);
   }
   position_[v] = p;
   if (p != home(v)) ++moved_to_[p];
-  for (const TetId t : star(v)) set_sign(t, sign_of(tet(t)));
+  for (const TetId t : star(v)) note(t);
 }
 
-void RoundedMesh::note_change(std::uint32_t v) {
+void RoundedMesh::note_move(VertexId v) {
   ++clock_;
-  for (const TetId t : star(v)) {
-    for (const std::uint32_t w : tet(t)) changed_at_[w] = clock_;
-  }
+  for (const TetId t : star(v)) note_change(t);
 }
 
 std::uint32_t RoundedMesh::last_change(TetId t) const {
   std::uint32_t last = 0;
-  for (const std::uint32_t v : tet(t)) last = std::max(last, changed_at_[v]);
+  for (const VertexId v : mesh.tet(t)) last = std::max(last, changed_at(v));
   return last;
 }
 
 bool RoundedMesh::accept(const Change& change) {
   for (const TetId t : change.removed) {
-    if (region(t) != region(change.removed[0])) return false;
-    for (const std::uint32_t v : tet(t)) {
+    if (mesh.region(t) != mesh.region(change.removed[0])) return false;
+    for (const VertexId v : mesh.tet(t)) {
       if (pinched_.contains(v)) return false;
     }
   }
-  if (clashes(change)) return false;
-  ++clock_;
+  if (clashes(change) || !PlacedMesh::accept(change)) return false;
   for (const TetId t : change.removed) {
-    for (const std::uint32_t v : tet(t)) changed_at_[v] = clock_;
-    set_sign(t, 1);
+    if (!mesh.alive(t)) set_sign(t, 1);
   }
-  topology_->replace(change.removed, change.created, change.faces);
-  sign_.resize(slots(), 1);
-  for (const TetId t : topology_->created()) set_sign(t, sign_of(tet(t)));
   return true;
 }
 
@@ -223,7 +210,9 @@ bool RoundedMesh::clashes(const Change& change) const {
       faces.push_back(undirected_face(t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]));
       for (int j = i + 1; j < 4; ++j) {
         const VertexId edge[2] = {t[i], t[j]};
-        const auto known = [&](TetId r) { return has(tet(r), edge[0]) && has(tet(r), edge[1]); };
+        const auto known = [&](TetId r) {
+          return has(mesh.tet(r), edge[0]) && has(mesh.tet(r), edge[1]);
+        };
         if (std::ranges::none_of(change.removed, known) &&
             has_element_elsewhere(edge, change.removed)) {
           return true;
@@ -242,7 +231,7 @@ bool RoundedMesh::has_element_elsewhere(std::span<const VertexId> vertices,
                                         std::span<const TetId> removed) const {
   return std::ranges::any_of(star(vertices[0]), [&](TetId t) {
     return !has(removed, t) &&
-           std::ranges::all_of(vertices, [&](VertexId v) { return has(tet(t), v); });
+           std::ranges::all_of(vertices, [&](VertexId v) { return has(mesh.tet(t), v); });
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "mesher/base/climb.h"
 #include "mesher/output/local_operations.h"
@@ -19,14 +20,14 @@ enum class Strategy { descend, descend_and_untangle, untangle_first };
 // Repairs from mild to drastic; after each success, the mild ones get another chance.
 class Repair {
  public:
-  Repair(RoundedMesh& mesh, const PointStore& points, Control& control, RoundingResult& result)
-      : mesh_(mesh), control_(control), result_(result), moves_(mesh), operations_(mesh, points) {}
+  Repair(RoundedMesh& mesh, Control& control, RoundingResult& result)
+      : mesh_(mesh), control_(control), result_(result), moves_(mesh), operations_(mesh) {}
 
   void run(Strategy strategy) {
     if (strategy == Strategy::descend) descend(kEfforts);
     if (strategy == Strategy::descend_and_untangle) descend(kExactEfforts);
     if (strategy != Strategy::descend) untangle();
-    for (const auto& group : mesh_.coincident()) separate(group);
+    for (const auto& group : mesh_.nearest().coincident(mesh_.positions())) separate(group);
   }
 
  private:
@@ -53,7 +54,7 @@ class Repair {
     const std::vector<std::uint32_t> work(mesh_.bad().begin(), mesh_.bad().end());
     bool success = false;
     for (const std::uint32_t t : work) {
-      if (!mesh_.alive(t) || mesh_.sign(t) > 0) continue;
+      if (!mesh_.mesh.alive(t) || mesh_.sign(t) > 0) continue;
       const auto failed = failed_at_.find({t, effort});
       if (failed != failed_at_.end() && failed->second >= mesh_.last_change(t)) continue;
       effort < 2 ? control_.poll() : control_.poll_now(0, -1);
@@ -104,12 +105,11 @@ class Repair {
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> failed_at_;
 };
 
-// Upper bound of the distance of a vertex from its exact position. The sum of two roundings up of
-// three components each, so a few units in the last place of slack suffice.
-double deviation(const RoundedMesh& mesh, std::uint32_t v) {
-  const Vec3 p = mesh.position(v), home = mesh.home(v);
+// Upper bound of the distance of a vertex at p from its exact position. The sum of two roundings up
+// of three components each, so a few units in the last place of slack suffice.
+double deviation(const NearestMesh& nearest, VertexId v, const Vec3& p) {
   Vec3 d;
-  for (int i = 0; i < 3; ++i) d[i] = std::fabs(p[i] - home[i]) + mesh.home_error(v);
+  for (int i = 0; i < 3; ++i) d[i] = std::fabs(p[i] - nearest.home[v][i]) + nearest.home_error(v);
   const double largest = std::max({d[0], d[1], d[2]});
   if (largest == 0) return 0;
   double sum = 0;
@@ -117,93 +117,96 @@ double deviation(const RoundedMesh& mesh, std::uint32_t v) {
   return largest * std::sqrt(sum) * (1 + 0x1p-48);
 }
 
-void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingResult& result) {
+// Of the mesh as it is after repairs; null: there were none.
+void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, RoundingResult& result) {
   TetMesh& written = result.mesh;
-  std::vector<std::uint32_t> index(mesh.vertices(), kNone);
-  written.tetrahedra.reserve(mesh.slots());
-  written.inside.reserve(mesh.slots());
-  for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
-    if (!mesh.alive(t)) continue;
-    written.tetrahedra.push_back(mesh.tet(t));
-    written.inside.push_back(mesh.region(t) != kOutside ? 1 : 0);
-    for (const std::uint32_t v : mesh.tet(t)) index[v] = 0;
+  const std::size_t slots = repaired != nullptr ? repaired->mesh.slots() : nearest.sign.size();
+  std::vector<VertexId> index(nearest.point.size(), kNone);
+  written.tetrahedra.reserve(slots);
+  written.inside.reserve(slots);
+  const auto take = [&](const Tet& t, RegionId region, int sign) {
+    written.tetrahedra.push_back(t);
+    written.inside.push_back(region != kOutside ? 1 : 0);
+    if (sign <= 0) ++(sign < 0 ? result.inverted : result.flat);
+    for (const VertexId v : t) index[v] = 0;
+  };
+  for (TetId t = 0; t < slots; ++t) {
+    if (repaired == nullptr) {
+      take(nearest.mesh.tetrahedra[t], nearest.mesh.region[t], nearest.sign[t]);
+    } else if (repaired->mesh.alive(t)) {
+      take(repaired->mesh.tet(t), repaired->mesh.region(t), repaired->sign(t));
+    }
   }
-  std::vector<std::uint32_t> of_store(input.points->size(), kNone);
-  for (std::uint32_t v = 0; v < index.size(); ++v) {
+  const std::span<const Vec3> position = repaired != nullptr ? repaired->positions() : nearest.home;
+  for (VertexId v = 0; v < index.size(); ++v) {
     if (index[v] == kNone) continue;
-    index[v] = static_cast<std::uint32_t>(result.vertices.size());
-    of_store[mesh.store_id(v)] = index[v];
-    result.vertices.push_back(mesh.store_id(v));
-    written.vertices.push_back(mesh.position(v));
-    if (mesh.on_surface(v)) {
-      result.max_surface_deviation = std::max(result.max_surface_deviation, deviation(mesh, v));
+    index[v] = static_cast<VertexId>(result.vertices.size());
+    result.vertices.push_back(nearest.point[v]);
+    written.vertices.push_back(position[v]);
+    if (nearest.on_surface(v)) {
+      result.max_surface_deviation =
+          std::max(result.max_surface_deviation, deviation(nearest, v, position[v]));
     }
   }
   for (Tet& t : written.tetrahedra) {
-    for (std::uint32_t& v : t) v = index[v];
+    for (VertexId& v : t) v = index[v];
   }
-  for (const auto& [vertices, facet] : input.mesh.boundary) {
+  for (const auto& [vertices, facet] : nearest.mesh.boundary) {
     const auto& [a, b, c] = vertices;
-    written.boundary.push_back({of_store[a], of_store[b], of_store[c]});
+    written.boundary.push_back({index[a], index[b], index[c]});
     written.boundary_facets.push_back(facet);
   }
-  if (result.operations == 0) result.repeated_faces = input.mesh.repeated_faces;
+  if (result.operations == 0) result.repeated_faces = nearest.mesh.repeated_faces;
+  for (const auto& group : nearest.coincident(position)) result.coincident += group.size() - 1;
 }
 
-// The tetrahedra of the input are there again afterwards if there was something to repair.
-RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& control,
+RoundingResult round_once(const NearestMesh& nearest, Strategy strategy, Control& control,
                           std::size_t most) {
-  RoundedMesh mesh(input, control);
   RoundingResult result;
-  const std::size_t bad_before = mesh.bad().size();
-  if (bad_before != 0 || !mesh.coincident().empty()) {
-    for (const std::uint32_t t : mesh.bad()) {
-      for (const std::uint32_t v : mesh.tet(t)) result.disturbed.push_back(mesh.store_id(v));
-    }
-    for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
-      const auto& [a, b, c, d] = mesh.tet(t);
-      input.mesh.tetrahedra.push_back(
-          {mesh.store_id(a), mesh.store_id(b), mesh.store_id(c), mesh.store_id(d)});
-      input.mesh.region.push_back(mesh.region(t));
-    }
-    result.tried = bad_before <= most;
-    if (result.tried) {
-      mesh.prepare_repairs();
-      Repair(mesh, *input.points, control, result).run(strategy);
+  std::optional<RoundedMesh> mesh;
+  for (TetId t = 0; nearest.bad != 0 && t < nearest.sign.size(); ++t) {
+    if (nearest.sign[t] > 0) continue;
+    for (const VertexId v : nearest.mesh.tetrahedra[t]) {
+      result.disturbed.push_back(nearest.point[v]);
     }
   }
-  for (const std::uint32_t t : mesh.bad()) ++(mesh.sign(t) < 0 ? result.inverted : result.flat);
-  result.repaired = bad_before - mesh.bad().size();
-  result.signs = mesh.signs();
-  for (const auto& group : mesh.coincident()) result.coincident += group.size() - 1;
-  export_mesh(mesh, input, result);
+  result.tried = nearest.bad <= most;
+  if (result.tried && (nearest.bad != 0 || !nearest.coincident(nearest.home).empty())) {
+    mesh.emplace(nearest);
+    Repair(*mesh, control, result).run(strategy);
+    result.signs = mesh->signs();
+  }
+  export_mesh(nearest, mesh ? &*mesh : nullptr, result);
+  result.repaired = nearest.bad - result.inverted - result.flat;
   return result;
 }
 
 // The same order for every run: the state is the only source of it.
-void shuffle_tetrahedra(ConformingMesh& mesh, std::uint32_t& state) {
+void shuffle_tetrahedra(NearestMesh& nearest, std::uint32_t& state) {
+  ConformingMesh& mesh = nearest.mesh;
   mesh.repeated_faces.clear();
   for (std::size_t n = mesh.tetrahedra.size(); n > 1; --n) {
     state = state * 1664525U + 1013904223U;
     const std::size_t m = (std::uint64_t{state} * n) >> 32U;
     std::swap(mesh.tetrahedra[n - 1], mesh.tetrahedra[m]);
     std::swap(mesh.region[n - 1], mesh.region[m]);
+    std::swap(nearest.sign[n - 1], nearest.sign[m]);
   }
 }
 
 // The best of several attempts. Which repairs are possible depends on those done before: where one
 // order of the tetrahedra ends in a dead end, another may not.
 struct Repairing {
-  RoundingInput& input;
+  NearestMesh nearest;
   Control& control;
   const RepairLimits& limits;
   RoundingResult best;
-  std::uint64_t signs = 0;  // in all attempts
+  std::uint64_t signs = nearest.sign.size();  // in all attempts
   std::uint32_t order = 1;
   bool first_strategy = true;
 
   RoundingResult round(Strategy strategy) {
-    RoundingResult result = round_once(input, strategy, control, limits.most);
+    RoundingResult result = round_once(nearest, strategy, control, limits.most);
     signs += result.signs;
     return result;
   }
@@ -213,7 +216,7 @@ struct Repairing {
   }
 
   void descend_in_another_order() {
-    shuffle_tetrahedra(input.mesh, order);
+    shuffle_tetrahedra(nearest, order);
     RoundingResult other = round(Strategy::descend);
     if (defects(other).first < defects(best).first) best = std::move(other);
   }
@@ -222,7 +225,7 @@ struct Repairing {
     RoundingResult other =
         round(first_strategy ? Strategy::descend_and_untangle : Strategy::untangle_first);
     if (defects(other) < defects(best)) best = std::move(other);
-    if (!first_strategy) shuffle_tetrahedra(input.mesh, order);
+    if (!first_strategy) shuffle_tetrahedra(nearest, order);
     first_strategy = !first_strategy;
   }
 };
@@ -238,7 +241,7 @@ constexpr Step<Repairing> kRepairs[] = {
 }  // namespace
 
 RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLimits& limits) {
-  Repairing attempt{input, control, limits, {}};
+  Repairing attempt{NearestMesh(std::move(input), control), control, limits, {}};
   attempt.best = attempt.round(Strategy::descend);
   RungCounts taken;
   climb(attempt, kRepairs, taken);

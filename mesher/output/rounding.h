@@ -15,6 +15,7 @@
 #include "mesher/geometry/local_frame.h"
 #include "mesher/predicates/points.h"
 #include "mesher/tetmesh/conforming_mesh.h"
+#include "mesher/tetmesh/mobility.h"
 
 namespace delmesher::output {
 
@@ -27,11 +28,9 @@ struct RoundingInput {
   LocalFrame frame;  // coordinates are doubles in the given frame, too
   // Where vertices go that are not simply rounded; by point of the store, empty if there are none.
   std::vector<std::array<double, 3>> place;
-  // Vertices that must keep their exact position: those of the input and of the outer box.
-  std::vector<std::uint8_t> fixed;  // per point of the store
-  // Vertices on the surface or on the box (may move by a few ulps only); others are free to move
-  // inside their star.
-  std::vector<std::uint8_t> on_surface;  // per point of the store
+  // Per point of the store: vertices of the input and of the outer box keep their exact position;
+  // others that are not free are on the surface or on the box, and move by a few ulps only.
+  std::vector<Mobility> mobility;
 };
 
 struct RoundingResult {

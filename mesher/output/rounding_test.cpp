@@ -94,8 +94,7 @@ struct Scene {
 
   void finish() {
     input.points = &points;
-    input.fixed.resize(points.size(), 0);
-    input.on_surface.resize(points.size(), 0);
+    input.mobility.resize(points.size(), Mobility::free);
     input.mesh.region.resize(input.mesh.tetrahedra.size(), 1);
     const std::set<Face> faces = outline(input.mesh.tetrahedra, input.mesh.region);
     for (const Face& f : faces) input.mesh.boundary.push_back({f, 0});
@@ -162,10 +161,10 @@ void check(const Scene& scene, const RoundingResult& r) {
   const double ulp = std::nextafter(largest, INFINITY) - largest;
   for (std::size_t i = 0; i < r.vertices.size(); ++i) {
     const VertexId v = r.vertices[i];
-    if (scene.input.fixed[v] != 0) {
+    if (scene.input.mobility[v] == Mobility::fixed) {
       EXPECT_EQ(r.mesh.vertices[i], scene.points.nearest(v));
     }
-    if (scene.input.on_surface[v] == 0) continue;
+    if (scene.input.mobility[v] == Mobility::free) continue;
     const ExactVec exact = exact_position(scene.points, v), written = rational(r.mesh.vertices[i]);
     mpq_class squared = 0;
     for (int k = 0; k < 3; ++k) squared += (written[k] - exact[k]) * (written[k] - exact[k]);
@@ -200,8 +199,7 @@ Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) 
     // In braces: arguments of a call are evaluated in any order.
     const Vec3 at{x + noise(random), y + noise(random), z + noise(random)};
     const VertexId v = s.points.add_explicit(scale * at[0], scale * at[1], scale * at[2]);
-    s.input.fixed.resize(v + 1, 1);
-    s.input.on_surface.resize(v + 1, 1);
+    s.input.mobility.resize(v + 1, Mobility::fixed);
     return v;
   };
   const VertexId p = corner(1, 0, 0), q = corner(0, 1, 0), r = corner(0, 0, 1),
@@ -214,8 +212,7 @@ Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) 
       const std::array<double, 2> u{double(i) / n + jitter(), double(j) / n + jitter()};
       const VertexId v = s.points.add_on_triangle(p, q, r, u[0], u[1]);
       grid[{i, j}] = v;
-      s.input.on_surface.resize(v + 1, 1);
-      s.input.fixed.resize(v + 1, 0);
+      s.input.mobility.resize(v + 1, Mobility::in_plane);
     }
   }
   Predicates exact(s.points);
@@ -230,8 +227,7 @@ Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) 
       v = s.points.add_explicit(m[0], m[1], m[2]);
     }
     ASSERT_GT(exact.orient3d(a, b, c, v), 0);
-    s.input.on_surface.resize(v + 1, tiny_tips_on_surface ? 1 : 0);
-    s.input.fixed.resize(v + 1, 0);
+    s.input.mobility.resize(v + 1, tiny_tips_on_surface ? Mobility::in_plane : Mobility::free);
     for (const Tet& t :
          {Tet{a, b, c, v}, Tet{a, b, v, tip}, Tet{b, c, v, tip}, Tet{c, a, v, tip}}) {
       ASSERT_GT(exact.orient3d(t[0], t[1], t[2], t[3]), 0);
@@ -259,8 +255,7 @@ Scene make_ridge(std::uint64_t seed, double scale, double angle, double shift = 
   const auto corner = [&](double x, double y, double z) {
     const VertexId v =
         s.points.add_explicit(scale * (x + shift), scale * (y - 2 * shift), scale * (z + shift));
-    s.input.fixed.resize(v + 1, 1);
-    s.input.on_surface.resize(v + 1, 1);
+    s.input.mobility.resize(v + 1, Mobility::fixed);
     return v;
   };
   for (int i = 0; i < 8; ++i) {
@@ -286,8 +281,7 @@ Scene make_ridge(std::uint64_t seed, double scale, double angle, double shift = 
       const double weight = std::fabs(across), of_b = 0.5 * (1 - weight + along);
       if (of_b < 0 || of_b + weight > 1) continue;
       const VertexId v = s.points.add_on_triangle(b, across > 0 ? c : d, a, of_b, weight);
-      s.input.on_surface.resize(v + 1, 1);
-      s.input.fixed.resize(v + 1, 0);
+      s.input.mobility.resize(v + 1, Mobility::in_plane);
       all.push_back(v);
     }
   }
@@ -359,13 +353,12 @@ TEST(Rounding, FarFromTheOrigin) {
 std::size_t untangled(const Scene& scene) {
   const Limits options;
   Control control(options);
-  RoundingInput given = scene.input;
-  RoundedMesh mesh(given, control);
+  const NearestMesh nearest(scene.input, control);
+  RoundedMesh mesh(nearest);
   const std::size_t before = mesh.bad().size();
-  mesh.prepare_repairs();
   EXPECT_TRUE(VertexMoves(mesh).untangle(control));
   EXPECT_TRUE(mesh.bad().empty());
-  for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+  for (std::uint32_t v = 0; v < mesh.mesh.vertices(); ++v) {
     EXPECT_TRUE(!mesh.fixed(v) || mesh.position(v) == mesh.home(v)) << v;
   }
   return before;
@@ -407,7 +400,7 @@ TEST(Rounding, SameTwiceAndScaled) {
 
 TEST(Rounding, WhatCannotMoveIsCounted) {
   Scene s = make_ridge(0, 1, 3e-16);
-  std::fill(s.input.fixed.begin(), s.input.fixed.end(), 1);
+  std::ranges::fill(s.input.mobility, Mobility::fixed);
   const std::size_t before = s.bad_when_rounded();
   ASSERT_GT(before, 0U);
   // With every face to be kept, there are no flips either.
@@ -446,7 +439,7 @@ TEST(Rounding, FlipsWhereNothingMoves) {
   std::size_t before = 0, after = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Scene s = make_ridge(seed, 1, 3e-16);
-    std::fill(s.input.fixed.begin(), s.input.fixed.end(), 1);
+    std::ranges::fill(s.input.mobility, Mobility::fixed);
     before += s.bad_when_rounded();
     const RoundingResult r = run(s);
     check(s, r);
@@ -476,14 +469,14 @@ TEST(Rounding, CoincidentVerticesAreSeparated) {
     const bool positive = exact.orient3d(f, f + 1, f + 2, x) > 0;
     s.input.mesh.tetrahedra.push_back({f, positive ? f + 1 : f + 2, positive ? f + 2 : f + 1, x});
   }
-  s.input.on_surface.assign(p.size(), 1);
-  s.input.fixed.assign(p.size(), 1);
-  s.input.fixed[v] = s.input.fixed[w] = 0;
+  s.input.mobility.assign(p.size(), Mobility::fixed);
+  s.input.mobility[v] = s.input.mobility[w] = Mobility::in_plane;
   s.finish();
   const RoundingResult r = run(s);
   check(s, r);
   EXPECT_EQ(r.coincident, 0U);
-  s.input.fixed[v] = s.input.fixed[w] = 1;  // the others being explicit, nothing can be done
+  s.input.mobility[v] = s.input.mobility[w] =
+      Mobility::fixed;  // the others being explicit, nothing can be done
   EXPECT_EQ(run(s).coincident, 1U);
 }
 

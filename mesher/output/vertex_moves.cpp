@@ -65,7 +65,7 @@ StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
   frame.origin = mesh.position(v);
   double size = 0;
   for (const std::uint32_t t : mesh.star(v)) {
-    for (const std::uint32_t w : mesh.tet(t)) {
+    for (const std::uint32_t w : mesh.mesh.tet(t)) {
       size = std::max(size, largest_component(subtract(mesh.position(w), frame.origin)));
     }
   }
@@ -76,7 +76,7 @@ StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
   // The face opposite vertex i, seen counter-clockwise from vertex i.
   static constexpr int kInward[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   for (const std::uint32_t t : mesh.star(v)) {
-    const Tet& q = mesh.tet(t);
+    const Tet& q = mesh.mesh.tet(t);
     const auto i = std::find(q.begin(), q.end(), v) - q.begin();
     const Vec3 a = local(q[kInward[i][0]]);
     const Vec3 u = subtract(local(q[kInward[i][1]]), a);
@@ -121,7 +121,7 @@ Vec3 deepest_point(const StarFrame& frame) {
 }  // namespace
 
 VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllChainsBudget) {
-  surface_unit_ = unit_in_last_place(mesh.largest_of_surface());
+  surface_unit_ = unit_in_last_place(mesh.nearest().largest_of_surface());
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
@@ -139,7 +139,7 @@ VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllCh
 // Vertices in the volume first: moving them costs no fidelity to the surface.
 std::vector<std::uint32_t> VertexMoves::movable(std::uint32_t t) const {
   std::vector<std::uint32_t> result;
-  for (const std::uint32_t v : mesh_.tet(t)) {
+  for (const std::uint32_t v : mesh_.mesh.tet(t)) {
     if (!mesh_.fixed(v)) result.push_back(v);
   }
   std::sort(result.begin(), result.end(), [&](std::uint32_t v, std::uint32_t w) {
@@ -152,10 +152,10 @@ bool VertexMoves::allowed(std::uint32_t v, const Vec3& p) const {
   if (!is_finite(p) || p == mesh_.position(v)) return false;
   if (mesh_.moves_far(v)) return true;
   if (surface_unit_ == 0) return false;
-  const Vec3 home = mesh_.home(v);
+  const Vec3& home = mesh_.home(v);
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double d = (std::fabs(p[i] - home[i]) + mesh_.home_error(v)) / surface_unit_;
+    const double d = (std::fabs(p[i] - home[i]) + mesh_.nearest().home_error(v)) / surface_unit_;
     sum += d * d;
   }
   return sum <= kSurfaceUlps * kSurfaceUlps;
@@ -170,12 +170,12 @@ void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
   const auto add = [&](const Vec3& unit, int reach) {
     for (const auto& s : steps_) {
       if (std::abs(s[0]) > reach || std::abs(s[1]) > reach || std::abs(s[2]) > reach) continue;
-      const Vec3 q = mesh_.frame().written(
+      const Vec3 q = mesh_.nearest().frame.written(
           {p[0] + s[0] * unit[0], p[1] + s[1] * unit[1], p[2] + s[2] * unit[2]});
       if (allowed(v, q)) candidates_.push_back(q);
     }
   };
-  const Vec3 given = mesh_.frame().given(p);
+  const Vec3 given = mesh_.nearest().frame.given(p);
   const double own = unit_in_last_place(largest_component(given));
   if (!wide) {
     add({unit_in_last_place(given[0]), unit_in_last_place(given[1]), unit_in_last_place(given[2])},
@@ -199,7 +199,7 @@ void VertexMoves::far_candidates(std::uint32_t v) {
   for (int k = 40; k >= 0; k -= 2) {
     Vec3 x = target;
     for (double& c : x) c = std::ldexp(c, -k);
-    const Vec3 p = mesh_.frame().written(frame.to_mesh(x));
+    const Vec3 p = mesh_.nearest().frame.written(frame.to_mesh(x));
     if (allowed(v, p)) candidates_.push_back(p);
   }
 }
@@ -245,14 +245,14 @@ bool VertexMoves::improve(std::uint32_t t, bool far) {
         best_position = p;
         if (gain != -star_badness_) continue;
         mesh_.move(v, p);
-        mesh_.note_change(v);
+        mesh_.note_move(v);
         return true;
       }
     }
   }
   if (best_vertex == kNone) return false;
   mesh_.move(best_vertex, best_position);
-  mesh_.note_change(best_vertex);
+  mesh_.note_move(best_vertex);
   return true;
 }
 
@@ -264,7 +264,7 @@ bool VertexMoves::separate(std::uint32_t v) {
     for (const Vec3& p : candidates_) {
       if (mesh_.occupied(p) || change(v, p, 1) > 0) continue;
       mesh_.move(v, p);
-      mesh_.note_change(v);
+      mesh_.note_move(v);
       return true;
     }
   }
@@ -332,7 +332,7 @@ bool VertexMoves::fix_by_chain(std::uint32_t t) {
   const bool freed = free_by_chain(chain, t, kChainDepth);
   chains_budget_ -= kChainBudget - chain.budget;
   if (freed && total() < before) {
-    for (const auto& [v, earlier] : chain.earlier) mesh_.note_change(v);
+    for (const auto& [v, earlier] : chain.earlier) mesh_.note_move(v);
     return true;
   }
   undo(chain, 0);
@@ -380,7 +380,7 @@ bool VertexMoves::lighten(std::uint32_t t) {
   positions_ += fingerprint(best_vertex, best_position) -
                 fingerprint(best_vertex, mesh_.position(best_vertex));
   mesh_.move(best_vertex, best_position);
-  mesh_.note_change(best_vertex);
+  mesh_.note_move(best_vertex);
   return true;
 }
 

@@ -29,14 +29,15 @@ output::RoundingInput rounding_input(ConformingMesh mesh, const Session& session
   input.mesh = std::move(mesh);
   input.points = &points;
   input.frame = session.frame;
+  input.mobility.reserve(points.size());
   input.place = places(points, session.surface.given_vertices());
-  input.fixed.resize(points.size());
-  input.on_surface.resize(points.size());
   for (VertexId v = 0; v < points.size(); ++v) {
     // Only points on the surface or on the box have planes.
-    input.on_surface[v] = points.planes(v).empty() ? 0 : 1;
-    input.fixed[v] =
-        v < session.input_vertices() || (points.is_explicit(v) && input.on_surface[v] != 0);
+    const bool on_surface = !points.planes(v).empty();
+    const bool given = v < session.input_vertices() || (points.is_explicit(v) && on_surface);
+    input.mobility.push_back(given        ? Mobility::fixed
+                             : on_surface ? Mobility::in_plane
+                                          : Mobility::free);
   }
   return input;
 }

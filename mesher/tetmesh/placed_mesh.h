@@ -35,6 +35,7 @@ class PlacedMesh {
   VertexId point(VertexId v) const { return point_[v]; }
   std::span<const VertexId> point_of_vertices() const { return point_; }
   const Vec3& position(VertexId v) const { return position_[v]; }
+  std::span<const Vec3> positions() const { return position_; }
   Mobility mobility(VertexId v) const { return mobility_[v]; }
 
   // Counts changes.
