@@ -11,10 +11,12 @@ import os
 import subprocess
 import sys
 
-import models
 import numpy
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+sys.dont_write_bytecode = True
+import models  # noqa: E402
 
 PAGES = {"light": ((1, 1, 1), (0.12, 0.14, 0.16), (0.80, 0.83, 0.87)), "dark": ((0.051, 0.067, 0.09), (0.90, 0.93, 0.95), (0.55, 0.60, 0.66))}
 STOPS = ((0, 0.75, 0.10, 0.12), (10, 0.96, 0.49, 0.15), (25, 0.99, 0.84, 0.35), (40, 0.55, 0.82, 0.55), (60, 0.10, 0.53, 0.65))  # degrees, colour

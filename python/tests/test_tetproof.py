@@ -377,6 +377,15 @@ def test_files(tmp_path):
         tetproof.write(tmp_path / "cube.doc", mesh)
 
 
+def test_the_readme_of_the_project(tmp_path, monkeypatch):
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", "README.md"), encoding="utf-8") as stream:
+        snippet = re.search(r"^```python\n(.*?)^```", stream.read(), re.M | re.S).group(1)
+    monkeypatch.chdir(tmp_path)
+    tetproof.write("part.stl", tetproof.Surface(POINTS, TRIANGLES, LABELS))
+    exec(snippet, {})
+    assert len(tetproof.read_mesh("part.msh").tetrahedra) > 0
+
+
 def test_files_are_given_by_name(tmp_path):
     tetproof.Surface(POINTS, TRIANGLES, LABELS, {1: "inlet", 2: "outlet"}).write(tmp_path / "cube.stl")
     mesh = tetproof.mesh(str(tmp_path / "cube.stl"))
