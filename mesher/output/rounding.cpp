@@ -124,6 +124,8 @@ void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, Roundi
   std::vector<VertexId> index(nearest.point.size(), kNone);
   written.tetrahedra.reserve(slots);
   written.inside.reserve(slots);
+  result.repeated_faces =
+      repaired != nullptr ? std::vector<std::uint8_t>{} : nearest.mesh.repeated_faces;
   const auto take = [&](const Tet& t, RegionId region, int sign) {
     written.tetrahedra.push_back(t);
     written.inside.push_back(region != kOutside ? 1 : 0);
@@ -135,6 +137,8 @@ void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, Roundi
       take(nearest.mesh.tetrahedra[t], nearest.mesh.region[t], nearest.sign[t]);
     } else if (repaired->mesh.alive(t)) {
       take(repaired->mesh.tet(t), repaired->mesh.region(t), repaired->sign(t));
+      result.repeated_faces.push_back(
+          repeated_within(Region::hull, repaired->mesh.repeated_faces(t)));
     }
   }
   const std::span<const Vec3> position = repaired != nullptr ? repaired->positions() : nearest.home;
@@ -156,7 +160,6 @@ void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, Roundi
     written.boundary.push_back({index[a], index[b], index[c]});
     written.boundary_facets.push_back(facet);
   }
-  if (result.operations == 0) result.repeated_faces = nearest.mesh.repeated_faces;
   for (const auto& group : nearest.coincident(position)) result.coincident += group.size() - 1;
 }
 
@@ -184,7 +187,6 @@ RoundingResult round_once(const NearestMesh& nearest, Strategy strategy, Control
 // The same order for every run: the state is the only source of it.
 void shuffle_tetrahedra(NearestMesh& nearest, std::uint32_t& state) {
   ConformingMesh& mesh = nearest.mesh;
-  mesh.repeated_faces.clear();
   for (std::size_t n = mesh.tetrahedra.size(); n > 1; --n) {
     state = state * 1664525U + 1013904223U;
     const std::size_t m = (std::uint64_t{state} * n) >> 32U;

@@ -38,7 +38,7 @@ struct RoundingResult {
   // and labels are not known yet.
   TetMesh mesh;
   std::vector<VertexId> vertices;            // of the mesh, in the store
-  std::vector<std::uint8_t> repeated_faces;  // of its tetrahedra; empty after local operations
+  std::vector<std::uint8_t> repeated_faces;  // bits 0 to 3; empty: nobody has found out
   std::uint64_t inverted = 0, flat = 0;      // left in the result, by exact sign
   std::uint64_t repaired = 0;    // how many fewer are not positive than after plain rounding
   std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one

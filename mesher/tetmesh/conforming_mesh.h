@@ -29,8 +29,8 @@ struct ConformingMesh {
   std::vector<Tet> tetrahedra;
   std::vector<RegionId> region;  // of each tetrahedron
   std::vector<SurfaceFace> boundary;
-  // Per tetrahedron: which faces earlier ones have too (bits 0 to 3), and which of these are in the
-  // same region (bits 4 to 7). Empty if nobody has found out, and after local operations.
+  // Per tetrahedron: which faces earlier ones have too (bits 0 to 3), and which of these are on the
+  // same side of the surface (bits 4 to 7). Empty if nobody has found out.
   std::vector<std::uint8_t> repeated_faces;
 };
 

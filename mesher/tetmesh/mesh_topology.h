@@ -67,6 +67,15 @@ class MeshTopology {
     const TetId u = neighbor(t, i);
     return u == kNone || region_[u] < region_[t] || (region_[u] == region_[t] && u < t);
   }
+  // ConformingMesh::repeated_faces, with tetrahedra in the order of their slots.
+  std::uint8_t repeated_faces(TetId t) const {
+    unsigned repeated = 0;
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = neighbor(t, i);
+      if (u < t) repeated |= (inside(u) == inside(t) ? 17U : 1U) << static_cast<unsigned>(i);
+    }
+    return static_cast<std::uint8_t>(repeated);
+  }
   // Some tetrahedron at v; kNone if there is none any more.
   TetId incident(VertexId v) const { return incident_[v]; }
   std::size_t vertices() const { return incident_.size(); }

@@ -71,6 +71,7 @@ ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> p
     for (int i = 0; i < 4; ++i) v[i] = point[topology.tet(t)[i]];
     mesh.tetrahedra.push_back(v);
     mesh.region.push_back(topology.region(t));
+    mesh.repeated_faces.push_back(topology.repeated_faces(t));
     for (int i = 0; i < 4; ++i) {
       if (topology.facet(t, i) == kNone || !topology.is_told_from(t, i)) continue;
       mesh.boundary.push_back(
