@@ -11,6 +11,7 @@
 #include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
 #include "mesher/surface/facet_locator.h"
+#include "mesher/tetmesh/insert_point.h"
 #include "mesher/tetmesh/numbering.h"
 
 namespace delmesher::improve {
@@ -55,6 +56,19 @@ struct Crossing {
 };
 
 class Entry {
+  // Tells whether the point of a crossing sees a face.
+  struct Judge {
+    using Value = bool;
+    State& state;
+    const Place& place;
+
+    static bool in_plane() { return true; }
+    bool value_of(TetId t, int i) const {
+      return state.is_positive_with(state.mesh.tet(t), i, place);
+    }
+  };
+  using Cavity = InsertPoint<Judge>;
+
  public:
   Entry(State& state, std::span<const VertexId> number, const SurfaceTopology& stand_in,
         const SurfaceTopology& as_given, Predicates& predicates, Control& control)
@@ -67,7 +81,8 @@ class Entry {
         edges_(state),
         smoothing_(state),
         corners_(as_given),
-        stays_(as_given.edge_count(), 0) {}
+        stays_(as_given.edge_count(), 0),
+        cavity_(state.mesh) {}
 
   // The short ones first: they are in the way of fewer others' repairs.
   std::vector<Diagonal> diagonals() const {
@@ -314,8 +329,8 @@ class Entry {
         const Vec3 x = add_scaled(on_stand_in, share, subtract(as_given, on_stand_in));
         const Place place = state_.place_on_edge(diagonal_.end, x, length * tolerance);
         if (find_cavity(c, place)) {
-          state_.insert_on_surface(place, Mobility::on_line, diagonal_.facet, ring_, created_,
-                                   created_faces_);
+          state_.insert_on_surface(place, Mobility::on_line, diagonal_.facet, cavity_.cavity(),
+                                   cavity_.created(), cavity_.faces());
           return true;
         }
         state_.forget(place);
@@ -337,93 +352,49 @@ class Entry {
     return add_scaled(from, t, subtract(to, from));
   }
 
-  // The tetrahedra that the point of a crossing replaces, and those that replace them: first those
-  // at the edge, then as well those beyond faces that cannot be seen from it. The faces of the
-  // facet among theirs are replaced as well. False if another face of the surface cannot be seen,
-  // if an edge or a vertex would go that stays, or if they are too many.
+  // Does the point of a crossing fit into a cavity? That has the tetrahedra at the edge, and then
+  // those beyond faces that cannot be seen from it, with the faces of the facet among theirs. False
+  // if another face of the surface cannot be seen, if an edge or a vertex would go that stays, or
+  // if they are too many.
   bool find_cavity(const Crossing& c, const Place& place) {
     find_ring(c.end);
-    for (bool grown = true; grown;) {
-      grown = false;
-      created_.clear();
-      for (std::size_t n = 0; n < ring_.size() && !grown; ++n) {
-        for (int i = 0; i < 4 && !grown; ++i) {
-          const TetId t = ring_[n];
-          if (is_within_cavity(t, i)) continue;
-          const Tet& tet = state_.mesh.tet(t);
-          if (state_.mesh.facet(t, i) != diagonal_.facet &&
-              state_.is_positive_with(tet, i, place)) {
-            created_.push_back({tet, state_.mesh.region(t)});
-            created_.back().vertices[i] = kNone;
-          } else if (grow(t, i, place)) {
-            grown = true;
-          } else {
-            return false;
-          }
-        }
-      }
+    const Judge judge{state_, place};
+    cavity_.begin({diagonal_.facet, kNone}, {kNone, kNone});
+    for (const TetId t : ring_) cavity_.add(t, judge);
+    const auto is_hidden = [&](const Cavity::Face& face) {
+      const bool is_between =
+          cavity_.is_own(face.tet, face.face) && state_.mesh.neighbor(face.tet, face.face) != kNone;
+      return is_between || !face.value;
+    };
+    for (auto face = cavity_.skin().begin();
+         (face = std::ranges::find_if(cavity_.skin(), is_hidden)) != cavity_.skin().end();) {
+      if (!may_cross(*face, place)) return false;
+      cavity_.add(state_.mesh.neighbor(face->tet, face->face), judge);
     }
-    return find_faces(c, place);
+    const auto is_free = [&](VertexId v) { return state_.mobility(v) == Mobility::free; };
+    return cavity_.find_change(is_free) &&
+           std::ranges::none_of(cavity_.inner(),
+                                [&](const auto& e) {
+                                  return !std::ranges::is_permutation(e.ends, c.end) &&
+                                         stays(e.ends);
+                                }) &&
+           std::ranges::all_of(cavity_.outline(), [&](const auto& e) { return sees(e, place); });
   }
-  // Is face i of t between two tetrahedra of the cavity, or one of the facet with both sides, as
-  // far as there are two, in it?
-  bool is_within_cavity(TetId t, int i) const {
-    const MeshTopology& mesh = state_.mesh;
-    const TetId next = mesh.neighbor(t, i);
-    const bool both = std::ranges::find(ring_, next) != ring_.end();
-    if (mesh.facet(t, i) == diagonal_.facet) return both || next == kNone;
-    return both && mesh.facet(t, i) == kNone;
-  }
-  bool grow(TetId t, int i, const Place& place) {
+  bool may_cross(const Cavity::Face& face, const Place& place) const {
     constexpr std::size_t kMost = 32;
+    const auto& [t, i, visible] = face;
     const TetId next = state_.mesh.neighbor(t, i);
-    const FacetId facet = state_.mesh.facet(t, i);
-    if (next == kNone || ring_.size() >= kMost) return false;
-    if (facet != kNone && facet != diagonal_.facet) return false;
+    if (next == kNone || cavity_.cavity().size() >= kMost) return false;
+    if (state_.mesh.facet(t, i) != kNone && !cavity_.is_own(t, i)) return false;
     const Vec3& apex = state_.position(state_.mesh.tet(next)[state_.mesh.mirror(t, i)]);
-    if (state_.too_long(place.position, apex)) return false;
-    ring_.push_back(next);
-    return true;
+    return !state_.too_long(place.position, apex);
   }
-
-  // The faces of the facet around the new point, in the place of those of the cavity.
-  bool find_faces(const Crossing& c, const Place& place) {
-    outline_.clear();
-    std::vector<VertexId> before, after;
-    for (const TetId t : ring_) {
-      for (int i = 0; i < 4; ++i) {
-        if (!state_.mesh.inside(t) || state_.mesh.facet(t, i) != diagonal_.facet) continue;
-        std::array<VertexId, 3> face{};
-        for (std::size_t k = 0; k < 3; ++k) face[k] = state_.mesh.tet(t)[kFace[i][k]];
-        if (side(face[0], face[1], face[2]) < 0) std::swap(face[1], face[2]);
-        for (std::size_t k = 0; k < 3; ++k) {
-          before.push_back(face[k]);
-          if (!add_to_outline({face[k], face[(k + 1) % 3]}, c)) return false;
-        }
-      }
-    }
-    created_faces_.clear();
-    for (const auto& [a, b] : outline_) {
-      if (predicates_.orient2d(axis_, state_.point(a), state_.point(b), place.point) <= 0) {
-        return false;
-      }
-      after.push_back(a);
-      created_faces_.push_back({{a, b, kNone}, diagonal_.facet});
-    }
-    sort_unique(before);
-    sort_unique(after);
-    return before == after;  // no vertex goes
-  }
-  // False if the edge is one between two faces, and stays.
-  bool add_to_outline(const std::array<VertexId, 2>& edge, const Crossing& c) {
-    const auto other = std::ranges::find(outline_, std::array{edge[1], edge[0]});
-    if (other == outline_.end()) {
-      outline_.push_back(edge);
-      return true;
-    }
-    outline_.erase(other);
-    const bool is_crossed = std::ranges::is_permutation(edge, c.end);
-    return is_crossed || !stays(edge);
+  // Is the point on that side of the edge where the face is that goes?
+  bool sees(const Cavity::FaceEdge& edge, const Place& place) {
+    const VertexId a = edge.ends[0], b = edge.ends[1];
+    return side(a, b, state_.mesh.tet(edge.tet)[edge.corner]) *
+               predicates_.orient2d(axis_, state_.point(a), state_.point(b), place.point) >
+           0;
   }
   // Is it part of a diagonal that has come back?
   bool stays(const std::array<VertexId, 2>& edge) const {
@@ -476,10 +447,8 @@ class Entry {
   VertexId to_ = 0;
   std::vector<std::array<VertexId, 2>> faces_;  // at the vertex that was reached
   std::vector<Crossing> crossings_;
-  std::vector<TetId> star_, ring_;   // the ring grows where it is a cavity
-  std::vector<CreatedTet> created_;  // in the cavity
-  std::vector<SurfaceFace> created_faces_;
-  std::vector<std::array<VertexId, 2>> outline_;  // of the faces in the cavity, counter-clockwise
+  std::vector<TetId> star_, ring_;
+  Cavity cavity_;
 };
 
 // Gives the faces of the surface, on points of the store, their facets of the surface as given.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <tuple>
 
 namespace delmesher::improve {
 namespace {
@@ -65,45 +64,52 @@ bool Insertion::run_on_surface(TetId t) {
 }
 
 bool Insertion::try_from(TetId t, Vec3 x) {
-  cavity_.clear();
-  faces_.clear();
-  crosses_facets_ = false;
-  add(t, x);
+  operation_.begin(site_.facet, site_.piece);
+  operation_.add(t, at(x));
   // Where x went, other faces are the worst.
-  for (std::size_t size = 0; size < cavity_.size();) {
-    size = cavity_.size();
+  for (std::size_t size = 0; size < operation_.cavity().size();) {
+    size = operation_.cavity().size();
     grow(x);
-    if (crosses_facets_ && site_.mobility != Mobility::free) return false;
+    if (operation_.crosses_facets()) return false;
     settle(x);
   }
-  const Quality before = state_.worst_of(cavity_);
+  const Quality before = state_.worst_of(operation_.cavity());
   // Where the point really goes is so near that no more can be gained there.
-  if (!(state_.score(worst()->quality) > kOfWorth * worth(before)) || !keeps_surface()) {
+  if (!(state_.score(worst()->value) > kOfWorth * worth(before)) ||
+      !operation_.find_change([&](VertexId v) { return may_go(v); })) {
     return false;
   }
   const Place place = place_at(x, std::sqrt(extreme_edges(t).first) * State::kGrid);
-  measure(place.position);
-  const Quality least = state_.to_be_better(before);
-  bool ok = is_worth_it(before) && sees_outline(place);
-  created_.clear();
-  for (std::size_t n = 0; ok && n < faces_.size(); ++n) {
-    const auto& [tet, face, quality] = faces_[n];
-    if (site_.is_on(state_.mesh.facet(tet, face))) continue;  // of the hull
-    ok = State::reaches(quality, least) &&
-         state_.is_positive_with(state_.mesh.tet(tet), face, place);
-    created_.push_back({state_.mesh.tet(tet), state_.mesh.region(tet)});
-    created_.back().vertices[face] = kNone;
-    for (const int k : kFace[face]) {
-      ok = ok && !(state_.counts(tet) &&
-                   state_.too_long(place.position, state_.position(state_.mesh.tet(tet)[k])));
-    }
-  }
-  if (ok) {
-    put_in(place);
-  } else {
+  if (!fits(place, before)) {
     state_.forget(place);
+    return false;
   }
-  return ok;
+  state_.insert_on_surface(place, site_.mobility, site_.facet[0], operation_.cavity(),
+                           operation_.created(), operation_.faces());
+  return true;
+}
+
+// Is the star of the point worth it, and valid?
+bool Insertion::fits(const Place& place, const Quality& before) {
+  for (Face& face : operation_.skin()) {
+    if (in_cone(face)) face.value = at(place.position).value_of(face.tet, face.face);
+  }
+  if (state_.score(worst()->value) < worth(before)) return false;
+  // On the hull nothing beyond a face tells that the point is not beside the faces in its plane.
+  const auto is_seen = [&](const auto& edge) {
+    return state_.is_positive_with(state_.mesh.tet(edge.tet), edge.corner, place);
+  };
+  if (!std::ranges::all_of(operation_.outline(), is_seen)) return false;
+  const Quality least = state_.to_be_better(before);
+  return std::ranges::all_of(operation_.skin(), [&](const Face& face) {
+    if (!in_cone(face)) return true;
+    const Tet& tet = state_.mesh.tet(face.tet);
+    return State::reaches(face.value, least) && state_.is_positive_with(tet, face.face, place) &&
+           std::ranges::none_of(kFace[face.face], [&](int k) {
+             return state_.counts(face.tet) &&
+                    state_.too_long(place.position, state_.position(tet[k]));
+           });
+  });
 }
 
 Place Insertion::place_at(const Vec3& x, double tolerance) {
@@ -122,88 +128,9 @@ float Insertion::worth(const Quality& before) const {
   return std::min(kLeastScore, kLeastGain * state_.score(before));
 }
 
-bool Insertion::is_worth_it(const Quality& before) const {
-  return state_.score(worst()->quality) >= worth(before);
-}
-
-void Insertion::put_in(const Place& place) {
-  if (site_.mobility == Mobility::free) {
-    state_.insert(place, cavity_, created_);
-  } else {
-    state_.insert_on_surface(place, site_.mobility, site_.facet[0], cavity_, created_,
-                             created_faces_);
-  }
-}
-
-// Finds the faces at the point on the surface. False if the surface would be another one.
-bool Insertion::keeps_surface() {
-  outline_.clear();
-  created_faces_.clear();
-  if (site_.mobility == Mobility::free) return true;
-  if (crosses_facets_ || !keeps_its_vertices()) return false;
-  find_patch();
-  const auto is_same = [](const FaceEdge& a, const FaceEdge& b) {
-    return a.ends == b.ends && a.facet == b.facet;
-  };
-  int pieces = 0;
-  for (std::size_t n = 0; n < patch_.size(); ++n) {
-    if (n + 1 < patch_.size() && is_same(patch_[n], patch_[n + 1])) {
-      ++n;
-    } else if (patch_[n].ends == site_.piece) {
-      ++pieces;
-    } else {
-      outline_.push_back(patch_[n]);
-      created_faces_.push_back({{patch_[n].ends[0], patch_[n].ends[1], kNone}, patch_[n].facet});
-    }
-  }
-  return site_.mobility == Mobility::in_plane || pieces == 2;
-}
-
-// The edges of the faces that the point replaces, in order.
-void Insertion::find_patch() {
-  const MeshTopology& mesh = state_.mesh;
-  patch_.clear();
-  for (const TetId t : cavity_) {
-    for (int i = 0; i < 4; ++i) {
-      const TetId u = mesh.neighbor(t, i);
-      if (!site_.is_on(mesh.facet(t, i)) || (u != kNone && u < t)) continue;
-      for (int k = 0; k < 3; ++k) {
-        const auto [a, b] =
-            std::minmax(mesh.tet(t)[kFace[i][k]], mesh.tet(t)[kFace[i][(k + 1) % 3]]);
-        patch_.push_back({{a, b}, mesh.facet(t, i), t, kFace[i][(k + 2) % 3]});
-      }
-    }
-  }
-  std::ranges::sort(patch_, {}, [](const FaceEdge& e) { return std::tuple(e.ends, e.facet); });
-}
-
-// On the hull nothing beyond a face tells that the point is not beside the patch, in its plane.
-bool Insertion::sees_outline(const Place& place) {
-  return std::ranges::all_of(outline_, [&](const FaceEdge& edge) {
-    return state_.is_positive_with(state_.mesh.tet(edge.tet), edge.corner, place);
-  });
-}
-
-// No face of the point's facets is left on the skin but on the hull, and all vertices of the
-// surface are.
-bool Insertion::keeps_its_vertices() const {
-  const MeshTopology& mesh = state_.mesh;
-  std::vector<VertexId> kept;
-  for (const auto& [tet, face, quality] : faces_) {
-    if (site_.is_on(mesh.facet(tet, face))) {
-      if (mesh.neighbor(tet, face) != kNone) return false;
-      continue;
-    }
-    for (const int k : kFace[face]) kept.push_back(mesh.tet(tet)[k]);
-  }
-  std::sort(kept.begin(), kept.end());
-  return std::ranges::all_of(cavity_, [&](TetId t) {
-    return std::ranges::all_of(mesh.tet(t), [&](VertexId v) {
-      const bool may_go =
-          state_.mobility(v) == Mobility::free || state_.mobility(v) == Mobility::in_plane;
-      return may_go || std::ranges::binary_search(kept, v);
-    });
-  });
+// Vertices of the surface stay.
+bool Insertion::may_go(VertexId v) const {
+  return state_.mobility(v) == Mobility::free || state_.mobility(v) == Mobility::in_plane;
 }
 
 // Of t and its neighbours: t itself may be flat.
@@ -244,66 +171,42 @@ bool Insertion::is_too_unequal(TetId t) const {
 // tetrahedron beyond it is not worth it.
 void Insertion::grow(const Vec3& x) {
   const std::size_t largest = site_.mobility == Mobility::free ? kLargestCavity : kLargestOnSurface;
-  while (cavity_.size() < largest) {
+  while (operation_.cavity().size() < largest) {
     const auto next = face_to_cross();
-    if (next == faces_.end()) return;
-    add(state_.mesh.neighbor(next->tet, next->face), x);
+    if (next == operation_.skin().end()) return;
+    operation_.add(state_.mesh.neighbor(next->tet, next->face), at(x));
   }
 }
 
 // Faces of the point's own facets first: it is in their plane.
 std::vector<Insertion::Face>::const_iterator Insertion::face_to_cross() const {
   const MeshTopology& mesh = state_.mesh;
+  const std::vector<Face>& skin = operation_.skin();
   if (site_.mobility != Mobility::free) {
-    const auto own = std::ranges::find_if(faces_, [&](const Face& f) {
-      return site_.is_on(mesh.facet(f.tet, f.face)) && mesh.neighbor(f.tet, f.face) != kNone;
+    const auto own = std::ranges::find_if(skin, [&](const Face& f) {
+      return operation_.is_own(f.tet, f.face) && mesh.neighbor(f.tet, f.face) != kNone;
     });
-    if (own != faces_.end()) return own;
+    if (own != skin.end()) return own;
   }
   const auto face = worst();
   const auto& [tet, i, quality] = *face;
   const TetId next = mesh.neighbor(tet, i);
-  if (state_.good(quality) || next == kNone || mesh.facet(tet, i) != kNone) return faces_.end();
-  const bool enough = cavity_.size() > kSmallCavity && state_.score(quality) >= kLeastScore &&
-                      state_.score(next) >= 1;
-  return enough ? faces_.end() : face;
+  if (state_.good(quality) || next == kNone || mesh.facet(tet, i) != kNone) return skin.end();
+  const bool enough = operation_.cavity().size() > kSmallCavity &&
+                      state_.score(quality) >= kLeastScore && state_.score(next) >= 1;
+  return enough ? skin.end() : face;
 }
 
-void Insertion::add(TetId t, const Vec3& x) {
-  cavity_.push_back(t);
-  for (int i = 0; i < 4; ++i) {
-    const TetId u = state_.mesh.neighbor(t, i);
-    if (u == kNone || std::find(cavity_.begin(), cavity_.end(), u) == cavity_.end()) {
-      faces_.push_back({t, i, quality_from(t, i, x)});
-      continue;
-    }
-    const FacetId facet = state_.mesh.facet(t, i);
-    if (facet != kNone && !site_.is_on(facet)) crosses_facets_ = true;
-    std::erase_if(faces_, [&](const Face& f) {
-      return f.tet == u && state_.mesh.neighbor(f.tet, f.face) == t;
-    });
-  }
-}
-
-// Of t with x in place of its i-th vertex, as far as it counts. There is none at faces of the hull
-// whose plane x is in.
-Quality Insertion::quality_from(TetId t, int i, const Vec3& x) const {
-  if (site_.is_on(state_.mesh.facet(t, i))) return kNotCounted;
-  const bool counts = state_.counts(t);
-  const Quality q = state_.quality_with(state_.mesh.tet(t), i, x);
+// Of t with x in place of its i-th vertex, as far as it counts.
+Quality Insertion::Judge::value_of(TetId t, int i) const {
+  const bool counts = state.counts(t);
+  const Quality q = state.quality_with(state.mesh.tet(t), i, x);
   return counts || !(q.dihedral > 0) ? q : kNotCounted;
 }
 
 std::vector<Insertion::Face>::const_iterator Insertion::worst() const {
-  return std::min_element(faces_.begin(), faces_.end(), [&](const Face& a, const Face& b) {
-    return state_.score(a.quality) < state_.score(b.quality);
-  });
-}
-
-void Insertion::measure(const Vec3& x) {
-  for (Face& face : faces_) {
-    face.quality = quality_from(face.tet, face.face, x);
-  }
+  return std::ranges::min_element(operation_.skin(), {},
+                                  [&](const Face& face) { return state_.score(face.value); });
 }
 
 // Moves x to where the worst face is better.
@@ -312,7 +215,7 @@ void Insertion::settle(Vec3& x) {
   build_cone();
   for (int round = 0; round < kRounds; ++round) {
     const Face& worst_face = *worst();
-    const float before = state_.score(worst_face.quality);
+    const float before = state_.score(worst_face.value);
     const Vec3 towards =
         allowed_offset(site_.mobility, site_.axis,
                        subtract(state_.best_apex_below(worst_face.tet, worst_face.face), x));
@@ -326,19 +229,19 @@ void Insertion::settle(Vec3& x) {
     }
     if (!success) return;
     std::size_t n = 0;
-    for (Face& face : faces_) {
-      if (in_cone(face)) face.quality = cone_.quality(n++);
+    for (Face& face : operation_.skin()) {
+      if (in_cone(face)) face.value = cone_.quality(n++);
     }
   }
 }
 
 bool Insertion::in_cone(const Face& face) const {
-  return !site_.is_on(state_.mesh.facet(face.tet, face.face));
+  return !operation_.is_own(face.tet, face.face);
 }
 
 void Insertion::build_cone() {
   cone_.clear();
-  for (const Face& face : faces_) {
+  for (const Face& face : operation_.skin()) {
     if (!in_cone(face)) continue;
     const auto at = [&](int k) -> const Vec3& {
       return state_.position(state_.mesh.tet(face.tet)[kFace[face.face][k]]);

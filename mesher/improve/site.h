@@ -15,8 +15,6 @@ struct Site {
   // On an edge only: the piece of it that is split, its smaller vertex first, and the edge.
   std::array<VertexId, 2> piece = {kNone, kNone};
   std::uint32_t input_edge = kNone;
-
-  bool is_on(FacetId f) const { return f != kNone && (f == facet[0] || f == facet[1]); }
 };
 
 // Nothing if edge i-j of t is not on the surface, more than two of its faces are at the edge, or
