@@ -42,8 +42,9 @@ LAYERS = {
     "output": FOUNDATION,
     "enrich": FOUNDATION + ("chamfer", "refine", "cdt"),
     "run": FOUNDATION + ("plane",),
-    "results": FOUNDATION + ("chamfer", "refine", "cdt", "improve", "output", "plane", "run"),
-    "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
+    "planar": FOUNDATION + ("run",),
+    "results": FOUNDATION + ("chamfer", "refine", "cdt", "improve", "output", "plane", "run", "planar"),
+    "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "planar", "results"),
     "io": ("base", "arithmetic", "predicates", "geometry"),
     "cli": ("base", "arithmetic", "predicates", "geometry", "surface", "io"),
 }

@@ -7,8 +7,8 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/delmesher.h"
 #include "mesher/delmesher/option_table.h"
+#include "mesher/planar/planar.h"
 #include "mesher/policies/fallback.h"
-#include "mesher/policies/planes.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
 #include "mesher/surface/feature_size.h"
@@ -36,10 +36,10 @@ SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
     if (!report.status.ok()) return report.status;
     Session s(options, control);
     s.diagonal = report.bbox_diagonal;
-    const auto [stand_in, bound] = enter_surface(surface, validity, Planes::to_the_end, s);
-    report.planar_bound = bound;
+    const PlanarizedSurface planarized = enter_surface(surface, validity, Planes::to_the_end, s);
+    report.planar_bound = planarized.bound;
     report.planar_facets = s.surface.topology().facet_triangles.size();
-    report.facets = stand_in.planes.empty() ? report.planar_facets : stand_in.given_facets;
+    report.facets = planarized.planes.empty() ? report.planar_facets : planarized.given_facets;
     report.smallest_local_feature_size =
         smallest_local_feature_size(s.surface.topology(), s.points, control);
     const chamfer::AcuteCount acute = chamfer::count_acute(

@@ -15,12 +15,12 @@
 #include "mesher/enrich/enrichment.h"
 #include "mesher/improve/diagonals.h"
 #include "mesher/improve/improve.h"
+#include "mesher/planar/planar.h"
 #include "mesher/policies/as_given.h"
 #include "mesher/policies/budget.h"
 #include "mesher/policies/fallback.h"
 #include "mesher/policies/plain.h"
 #include "mesher/policies/planar_runs.h"
-#include "mesher/policies/planes.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
 #include "mesher/results/recorder.h"
@@ -57,8 +57,7 @@ Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& reco
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
-  const PlanarSurface planar = enter_surface(surface, validity, planes, s);
-  recorder.planar(planar.stand_in, planar.bound, validity);
+  recorder.planar(enter_surface(surface, validity, planes, s), validity);
   return {};
 }
 
@@ -205,11 +204,11 @@ improve::ImproveResult improve_final(ConformingMesh& mesh, Session& s,
   return result;
 }
 
-// What has come back may take a tenth more tetrahedra than the mesh of the stand-in had; beyond
+// What has come back may take a tenth more tetrahedra than the planarized one had; beyond
 // that, points on the edges that came back are spared.
 void improve_as_given(std::size_t before, const std::vector<std::uint8_t>& is_flat,
                       ConformingMesh& mesh, Session& s, Recorder& recorder) {
-  std::vector<std::uint8_t> returned = is_flat;  // on the stand-in
+  std::vector<std::uint8_t> returned = is_flat;  // on the planarized surface
   for (std::size_t e = 0; e < returned.size(); ++e) {
     if (s.surface.topology().edge_is_flat[e] != 0) returned[e] = 0;
   }
@@ -227,14 +226,11 @@ struct WayBack {
   bool good_enough() const { return mesh.has_value(); }
 
   void attempt() {
-    SurfaceTopology as_given = topology_as_given(s);
     improve::DiagonalsResult entered = improve::enter_diagonals(
-        planarized, s.surface.topology(), as_given, s.surface.given_vertices(),
+        planarized, s.surface.topology(), as_given(s).topology, s.surface.given_vertices(),
         improve_options(Region::hull, s), s.points, s.predicates, s.control);
     recorder.put_back(entered.diagonals, entered.missing);
-    if (entered.missing == 0 && go_back(entered.mesh, std::move(as_given), s)) {
-      mesh = std::move(entered.mesh);
-    }
+    if (entered.missing == 0 && go_back(entered.mesh, s)) mesh = std::move(entered.mesh);
   }
   void tetrahedrize_again() {
     s.points.truncate(points);
@@ -261,7 +257,8 @@ Status put_back(ConformingMesh& mesh, Session& s, Recorder& recorder) {
   return {};
 }
 
-// Improves the final mesh; a mesh of the stand-in that goes back is improved before and after.
+// Improves the final mesh; a mesh of the planarized surface that goes back is improved before and
+// after.
 Status improve_and_go_back(Planes planes, ConformingMesh& mesh, Session& s, Recorder& recorder) {
   // Drop outside tetrahedra first: they cost time, and between facets that are nearly in one plane
   // there are flat ones that block operations.

@@ -58,13 +58,19 @@ using namespace foundation;  // NOLINT(google-build-using-namespace)
 namespace run {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 }
+namespace planar {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+using namespace run;         // NOLINT(google-build-using-namespace)
+}  // namespace planar
 namespace results {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 using namespace run;         // NOLINT(google-build-using-namespace)
+using namespace planar;      // NOLINT(google-build-using-namespace)
 }  // namespace results
 namespace policies {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 using namespace run;         // NOLINT(google-build-using-namespace)
+using namespace planar;      // NOLINT(google-build-using-namespace)
 using namespace results;     // NOLINT(google-build-using-namespace)
 }  // namespace policies
 namespace io {

@@ -14,14 +14,15 @@
 namespace delmesher::cdt::test_models {
 
 struct Model {
-  // With `bound` above 0 it is a stand-in whose facets are planar within that.
-  explicit Model(const Surface& given, double bound = 0) : control(options), predicates(points) {
+  using Build = SurfaceTopology (*)(const Surface&, PointStore&, Predicates&);
+
+  explicit Model(const Surface& given, Build build = build_topology)
+      : control(options), predicates(points) {
     const ValidityResult validity = check_validity(given, true, control);
     valid = validity.report.defects.empty();
     if (!valid) return;
     surface = oriented_outwards(given, validity);
-    topology = build_topology(surface, points, predicates,
-                              find_stand_in(surface, bound, control, Retriangulate::no));
+    topology = build(surface, points, predicates);
     input.topology = &topology;
     input.validate = true;  // in every build
     for (VertexId v = 0; v < surface.vertices.size(); ++v) input.vertices.push_back(v);

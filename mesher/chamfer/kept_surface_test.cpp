@@ -9,8 +9,8 @@
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/chamfer/test_model.h"
 #include "mesher/chamfer/test_polyhedra.h"
+#include "mesher/planar/planarized_surface.h"
 #include "mesher/predicates/rational_reference.h"
-#include "mesher/surface/planar_groups.h"
 #include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::chamfer {
@@ -59,10 +59,10 @@ TEST(KeptSurface, FarFromTheOriginDistancesKeepTheirDigits) {
   }
   Limits limits;
   Control control(limits);
-  const surface::StandIn stand_in = surface::find_stand_in(box, 1e-9, control);
+  const planar::PlanarizedSurface planarized = planar::planarize(box, 1e-9, control);
   PointStore points;
   Predicates predicates(points);
-  const SurfaceTopology topology = build_topology(box, points, predicates, stand_in);
+  const SurfaceTopology topology = planar::planarized_topology(box, planarized, points, predicates);
   ASSERT_EQ(topology.facet_triangles.size(), 6U);
   const KeptSurface surface(topology, points, {});
   std::size_t implicit = 0;

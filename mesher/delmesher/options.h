@@ -51,8 +51,8 @@ struct Options : Limits {
   // one facet while they are refined, and the edges between them come back at the end. kPlanarAuto:
   // as little as it takes for triangles that are bent by less than 2^-20 of the diagonal, at most
   // 2^-18; where coordinates were rounded to few digits, six times what that moves a point off a
-  // plane (surface/flatness.h, surface/resolution.h), and where edges show more noise, 16 times
-  // that (surface/edge_bends.h), at most 2^-12.
+  // plane (planar/flatness.h, planar/resolution.h), and where edges show more noise, 16 times
+  // that (planar/edge_bends.h), at most 2^-12.
   double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside; 0: no bound
   // Smaller edges in places: nowhere along an edge inside is it longer than size + size_growth *

@@ -11,7 +11,8 @@
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 #include "mesher/geometry/placement.h"
-#include "mesher/surface/flatness.h"
+#include "mesher/planar/flatness.h"
+#include "mesher/planar/planarized_surface.h"
 #include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::improve {
@@ -23,16 +24,17 @@ using surface::test_surfaces::in_single_precision;
 using surface::test_surfaces::prism;
 using surface::test_surfaces::rotated;
 
-double flatness(const Surface& s) {
+SurfaceTopology planarized(const Surface& s, PointStore& points, Predicates& predicates) {
   Limits limits;
   Control control{limits};
-  return surface::flatness(s, control);
+  const double bound = 2 * planar::flatness(s, control);
+  return planar::planarized_topology(
+      s, planar::planarize(s, bound, control, planar::Retriangulate::no), points, predicates);
 }
 
-// A mesh of the stand-in of a surface, with points of all kinds.
+// A mesh of the planarized surface of a surface, with points of all kinds.
 struct Case {
-  Case(const Surface& surface, int density, std::uint32_t seed)
-      : model(surface, 2 * flatness(surface)) {
+  Case(const Surface& surface, int density, std::uint32_t seed) : model(surface, planarized) {
     EXPECT_TRUE(model.valid);
     if (density > 0) cdt::test_models::enrich(model, density, seed);
     mesh = model.run().mesh;

@@ -6,7 +6,7 @@
 
 #include "mesher/cdt/cdt_reference.h"
 #include "mesher/cdt/test_models.h"
-#include "mesher/policies/planes.h"
+#include "mesher/planar/planar.h"
 #include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::policies {

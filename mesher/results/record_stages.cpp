@@ -136,8 +136,9 @@ void record_repaired(const output::RoundingResult& rounded, Region region, Exact
   }
 }
 
-void record_points(const PointStore& points, const PointStore* stand_in, std::size_t input_vertices,
-                   const output::RoundingResult& rounded, ExactRecord& record) {
+void record_points(const PointStore& points, const PointStore* as_refined,
+                   std::size_t input_vertices, const output::RoundingResult& rounded,
+                   ExactRecord& record) {
   record.mesh_vertices = rounded.vertices;
   std::vector<std::uint32_t> number(points.size(), 0);
   const auto use = [&](std::uint32_t v) { number[v] = 1; };
@@ -157,8 +158,8 @@ void record_points(const PointStore& points, const PointStore* stand_in, std::si
       continue;
     }
     number[v] = next++;
-    const bool moved = stand_in != nullptr && v < input_vertices;
-    const PointDefinition d = moved ? stand_in->definition(v) : points.definition(v);
+    const bool moved = as_refined != nullptr && v < input_vertices;
+    const PointDefinition d = moved ? as_refined->definition(v) : points.definition(v);
     const auto at = [&](int k) { return number[d.corner[k]]; };
     ExactPoint p;
     switch (d.kind) {
@@ -179,7 +180,7 @@ void record_points(const PointStore& points, const PointStore* stand_in, std::si
     }
     record.points.push_back(p);
   }
-  const PointStore& moved = stand_in != nullptr ? *stand_in : points;
+  const PointStore& moved = as_refined != nullptr ? *as_refined : points;
   for (std::uint32_t n = 0; n < moved.plane_count(); ++n) {
     const PlaneEquation& plane = moved.plane(n);
     record.planes.push_back({plane.spanned, plane.normal, plane.through});

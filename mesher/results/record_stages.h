@@ -28,9 +28,10 @@ void record_changed(const ConformingMesh& changed, const SurfaceTopology& topolo
                     ExactRecord& record);
 // Replaces the final tetrahedra that were handed to rounding by those that it returned.
 void record_repaired(const output::RoundingResult& rounded, Region region, ExactRecord& record);
-// Adds the points that the record uses, input vertices first, and renumbers. `stand_in` has the
+// Adds the points that the record uses, input vertices first, and renumbers. `as_refined` has the
 // input vertices as they were refined, and is null if that is as they are in `points`.
-void record_points(const PointStore& points, const PointStore* stand_in, std::size_t input_vertices,
-                   const output::RoundingResult& rounded, ExactRecord& record);
+void record_points(const PointStore& points, const PointStore* as_refined,
+                   std::size_t input_vertices, const output::RoundingResult& rounded,
+                   ExactRecord& record);
 
 }  // namespace delmesher::results

@@ -41,20 +41,20 @@ void Recorder::checked(const SurfaceReport& report) {
   result_.statistics.bbox_diagonal = report.bbox_diagonal;
 }
 
-void Recorder::planar(const StandIn& stand_in, double bound, const ValidityResult& validity) {
+void Recorder::planar(const PlanarizedSurface& planarized, const ValidityResult& validity) {
   Statistics& s = result_.statistics;
   s.facets = session_.surface.topology().facet_triangles.size();
-  if (stand_in.planes.empty()) return;
-  s.planar_groups = stand_in.groups;
+  if (planarized.planes.empty()) return;
+  s.planar_groups = planarized.groups;
   if (exact()) {
-    auto& triangles = result_.exact.triangles = stand_in.triangles;
+    auto& triangles = result_.exact.triangles = planarized.triangles;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (validity.reverse_triangle[t] != 0) std::swap(triangles[t][1], triangles[t][2]);
     }
   }
-  s.given_facets = stand_in.given_facets;
-  s.planar_deviation = stand_in.deviation;
-  s.planar_bound = bound;
+  s.given_facets = planarized.given_facets;
+  s.planar_deviation = planarized.deviation;
+  s.planar_bound = planarized.bound;
 }
 
 void Recorder::chamfered(const chamfer::ChamferResult& chamfered,

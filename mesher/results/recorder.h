@@ -8,6 +8,7 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
 #include "mesher/output/rounding.h"
+#include "mesher/planar/planarized_surface.h"
 #include "mesher/refine/refine.h"
 #include "mesher/results/in_force.h"
 #include "mesher/run/session.h"
@@ -22,8 +23,8 @@ class Recorder {
 
   RungCounts& ladder() { return result_.statistics.ladder; }
   void checked(const SurfaceReport& report);
-  // Facets were made planar within `bound`. The triangles recorded are oriented as in the input.
-  void planar(const StandIn& stand_in, double bound, const ValidityResult& validity);
+  // Facets were made planar. The triangles recorded are oriented as in the input.
+  void planar(const PlanarizedSurface& planarized, const ValidityResult& validity);
   void predicted(double tetrahedra) { result_.statistics.predicted_tetrahedra = tetrahedra; }
   void chamfered(const chamfer::ChamferResult& chamfered, const chamfer::FilterResult& filter,
                  const InForce& force);

@@ -1,4 +1,4 @@
-// Where points of a stand-in surface are written.
+// Where points are written that are defined by moved vertices of the surface.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace delmesher::surface {
 
-// The doubles at which v is written: its nearest ones, or, where the surface is a stand-in, those
-// of the point with the same parameters on the vertices as `given` (empty if there is no stand-in).
+// The doubles at which v is written: its nearest ones, or those of the point with the same
+// parameters on the vertices as `given` (empty if they were not moved).
 // `scratch` is an empty store, and is left empty.
 Vec3 given_place(const PointStore& points, VertexId v, std::span<const Vec3> given,
                  PointStore& scratch);

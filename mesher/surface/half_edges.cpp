@@ -1,6 +1,7 @@
 #include "mesher/surface/half_edges.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "mesher/base/ids.h"
 

@@ -35,9 +35,8 @@ std::vector<std::uint32_t> classes_of(
 
 class Builder {
  public:
-  Builder(const Surface& surface, const StandIn& stand_in, PointStore& points,
-          Predicates& predicates)
-      : surface_(surface), stand_in_(stand_in), points_(points), predicates_(predicates) {}
+  Builder(const Surface& surface, PointStore& points, Predicates& predicates)
+      : surface_(surface), points_(points), predicates_(predicates) {}
 
   SurfaceTopology build() {
     add_points();
@@ -52,9 +51,13 @@ class Builder {
 
  private:
   void add_points() {
-    DELMESHER_CHECK(points_.size() == 0, "a topology is built on a store that is not empty");
-    add_vertices(surface_, stand_in_, points_);
-    topology_.triangles = stand_in_.triangles.empty() ? surface_.triangles : stand_in_.triangles;
+    if (points_.size() == 0) {
+      points_.reserve(surface_.vertices.size());
+      for (const auto& [x, y, z] : surface_.vertices) points_.add_explicit(x, y, z);
+    }
+    DELMESHER_CHECK(points_.size() == surface_.vertices.size(),
+                    "a topology is built on a store with other points than its vertices");
+    topology_.triangles = surface_.triangles;
     topology_.labels = surface_.labels;
     topology_.labels.resize(surface_.triangles.size(), 0);
   }
@@ -194,7 +197,6 @@ class Builder {
   }
 
   const Surface& surface_;
-  const StandIn& stand_in_;
   PointStore& points_;
   Predicates& predicates_;
   SurfaceTopology topology_;
@@ -202,9 +204,8 @@ class Builder {
 
 }  // namespace
 
-SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
-                               const StandIn& stand_in) {
-  return Builder(surface, stand_in, points, predicates).build();
+SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates) {
+  return Builder(surface, points, predicates).build();
 }
 
 std::vector<PlaneId> SurfaceTopology::edge_planes(std::uint32_t e) const {

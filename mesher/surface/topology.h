@@ -9,7 +9,6 @@
 #include "mesher/delmesher/surface.h"
 #include "mesher/geometry/box_tree.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/planar_groups.h"
 
 namespace delmesher::surface {
 
@@ -56,13 +55,12 @@ struct SurfaceTopology {
   std::vector<PlaneId> edge_planes(std::uint32_t e) const;
 };
 
-// Adds the surface's vertices to an empty store, builds the adjacency and the facets (exactly), and
-// records as supports of every vertex the planes of its facets and the lines of its non-flat edges
-// (both the edge itself and edge_line of it are ids of the line that contains an edge). The surface
-// must have passed check_validity and be oriented outwards. With a stand-in, its vertices are those
-// of the topology.
-SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
-                               const StandIn& stand_in = {});
+// Builds the adjacency and the facets (exactly), and records as supports of every vertex the planes
+// of its facets and the lines of its non-flat edges (both the edge itself and edge_line of it are
+// ids of the line that contains an edge). The surface must have passed check_validity and be
+// oriented outwards. Points 0 .. vertices-1 of the store are its vertices; an empty store gets them
+// where they are.
+SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates);
 
 // The undirected edge between two vertices; kNone if there is none.
 std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b);

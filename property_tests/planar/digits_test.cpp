@@ -9,8 +9,8 @@
 #include <random>
 
 #include "mesher/base/control.h"
-#include "mesher/surface/flatness.h"
-#include "mesher/surface/resolution.h"
+#include "mesher/planar/flatness.h"
+#include "mesher/planar/resolution.h"
 #include "oracles/surface/input_digits.h"
 #include "property_tests/planar/runs.h"
 
@@ -79,7 +79,7 @@ TEST(Digits, LetTheMesherDeviateByNoMoreThanTheOracles) {
     }
     const double diagonal = diagonal_of(s);
     if (!(diagonal > 0)) continue;
-    const double rounding = delmesher::surface::rounding_of_coordinates(s, kMostRounded * diagonal);
+    const double rounding = delmesher::planar::rounding_of_coordinates(s, kMostRounded * diagonal);
     const double mine = std::max(6 * rounding / diagonal, kAlways);
     const double theirs = automatic_planar_share(s.vertices);
     more += mine > kAlways ? 1 : 0;
@@ -132,7 +132,7 @@ TEST(EdgeNoise, LetsTheMesherDeviateByNoMoreThanTheOracles) {
     const Surface s = rotated(twice, n % 2 == 0 ? to(finer) : to(0x1p-50));
     delmesher::Limits limits;
     delmesher::base::Control control{limits};
-    const double mine = 4 * delmesher::surface::flatness(s, control) / diagonal_of(s);
+    const double mine = 4 * delmesher::planar::flatness(s, control) / diagonal_of(s);
     const double theirs = automatic_planar_share(samples::to_polyhedron(s));
     more += mine > 1.01 * automatic_planar_share(s.vertices) ? 1 : 0;
     ASSERT_LE(mine, theirs * (1 + 1e-9)) << n;

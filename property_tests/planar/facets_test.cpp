@@ -142,7 +142,7 @@ TEST_P(Rotated, WithPlanarZeroTheSurfaceIsKeptToTheLastBit) {
   EXPECT_TRUE(samples::as_promised(of_more)) << to_text(of_more);
 }
 
-// The record's list of facets is that of the stand-in, where fewer triangles are facets.
+// The record's list of facets is that of the planarized surface, where fewer triangles are facets.
 TEST(PlanarZero, LabelsAreThoseOfTheSurfaceAsGiven) {
   Surface labelled = rotated(stairs(), to_single);
   labelled.labels.assign(labelled.triangles.size(), 7);
@@ -177,7 +177,7 @@ void expect_kept(const Part& part, std::uint64_t tetrahedrized_again = 0) {
 }
 
 // There are edges that cross a facet's edge at which tetrahedra are flatter than the surface bends
-// there, or that vertices of the stand-in were moved by more than those are thick.
+// there, or that vertices were moved by more than those are thick.
 TEST(PlanarZero, EdgesComeBackThroughFlatTetrahedra) {
   for (const Part& part : {Part{rotated(flat_prism(12, 0.5, 0.3), as_it_is), 120},
                            Part{rotated(flat_prism(16, 2, 1), as_it_is), 200},

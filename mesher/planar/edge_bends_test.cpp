@@ -1,4 +1,4 @@
-#include "mesher/surface/edge_bends.h"
+#include "mesher/planar/edge_bends.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
-using namespace test_surfaces;
+using namespace surface::test_surfaces;  // NOLINT(google-build-using-namespace)
 
 constexpr double kRounding = 1e-14, kLeast = 1e-9, kMost = 1e-3;
 constexpr std::ptrdiff_t kFewest = 8;
@@ -131,4 +131,4 @@ TEST(EdgeBends, AboveTheNoiseAreMeant) {
 }
 
 }  // namespace
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -1,4 +1,4 @@
-#include "mesher/surface/facet_laws.h"
+#include "mesher/planar/facet_laws.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@
 #include "mesher/predicates/stages.h"
 #include "mesher/surface/half_edges.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
 struct Outline {
@@ -124,4 +124,4 @@ std::vector<std::uint32_t> far_from_plane(const ChangedSurface& s,
   return result;
 }
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -1,4 +1,4 @@
-#include "mesher/surface/resolution.h"
+#include "mesher/planar/resolution.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "mesher/geometry/vector.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
 using predicates::Vec3;
@@ -117,4 +117,4 @@ double rounding_of_coordinates(const Surface& surface, double most) {
   return 0;
 }
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -6,7 +6,7 @@
 
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 // The bend of an edge is the largest distance of the corners of its two triangles from the plane of
 // the sum of their area vectors. Of the edges of a valid surface: positive where it is convex if
@@ -30,4 +30,4 @@ std::vector<double> edge_bends(const Surface& surface);
 double noise_of_bends(const std::vector<double>& bends, double rounding, double least, double most,
                       std::ptrdiff_t fewest);
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -1,4 +1,4 @@
-#include "mesher/surface/flatness.h"
+#include "mesher/planar/flatness.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
-using namespace test_surfaces;
+using namespace surface::test_surfaces;  // NOLINT(google-build-using-namespace)
 
 double flatness(const Surface& s) {
   Limits limits;
   Control control{limits};
-  return surface::flatness(s, control);
+  return planar::flatness(s, control);
 }
 
 // Every coordinate off by up to `noise`, as of a hash of its number.
@@ -174,4 +174,4 @@ TEST(Flatness, ScalesWithTheSurface) {
 }
 
 }  // namespace
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -3,7 +3,7 @@
 
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 // How far a corner of a plane may be off it because the coordinates were rounded to a format: half
 // a unit in the last place on every axis. Decimal numbers have a last place if some are not
@@ -15,4 +15,4 @@ namespace delmesher::surface {
 // doubles.
 double rounding_of_coordinates(const Surface& surface, double most);
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

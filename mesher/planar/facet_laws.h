@@ -1,5 +1,6 @@
-// The laws that bind the facets of a stand-in to the surface as given (planar_groups.h). They are
-// decided exactly, on the facets that it really has, whatever groups were meant.
+// The laws that bind the facets of a planarized surface to the surface as given
+// (planarized_surface.h). They are decided exactly, on the facets that it really has, whatever
+// groups were meant.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 #include "mesher/delmesher/surface.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 // A surface with some edges flipped and some vertices moved: vertex v is point v. Half-edge 3 t + k
 // goes from corner k of triangle t to the next, and has an opposite one in the neighbour.
@@ -35,4 +36,4 @@ std::vector<std::uint32_t> far_from_plane(const ChangedSurface& surface,
                                           const std::vector<std::uint32_t>& facet, double bound,
                                           PointStore& points);
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -4,7 +4,7 @@
 #include "mesher/base/control.h"
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 // An edge that is bent (edge_bends.h) by less than 2^-20 of the diagonal of the bounding box is
 // called flat. Returns four times the largest such bend, since the corners of many triangles are
@@ -29,4 +29,4 @@ namespace delmesher::surface {
 // valid.
 double flatness(const Surface& surface, Control& control);
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

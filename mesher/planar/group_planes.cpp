@@ -1,4 +1,4 @@
-#include "mesher/surface/group_planes.h"
+#include "mesher/planar/group_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "mesher/predicates/signs_of_doubles.h"
 #include "mesher/surface/half_edges.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 Fit rough(const PlaneEquation& plane) {
   return {plane.normal, plane.through[0]};
@@ -412,4 +412,4 @@ std::vector<std::uint32_t> GroupPlanes::triangles_at(VertexId v, std::uint32_t p
   return here;
 }
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -1,5 +1,5 @@
 // Edge-connected sets of triangles that are planar within a noise bound: how they grow, and how
-// they are taken apart (planar_groups.h says what for).
+// they are taken apart (planarized_surface.h says what for).
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 #include "mesher/geometry/vector.h"
 #include "mesher/predicates/points.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 int largest_axis(const Vec3& v);
 
@@ -136,4 +136,4 @@ class PlanarGrowth {
   std::vector<Group> groups_;
 };
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

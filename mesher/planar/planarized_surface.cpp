@@ -1,17 +1,17 @@
-#include "mesher/surface/planar_groups.h"
+#include "mesher/planar/planarized_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "mesher/geometry/box_tree.h"
+#include "mesher/planar/facet_laws.h"
+#include "mesher/planar/group_planes.h"
+#include "mesher/planar/planar_growth.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/facet_laws.h"
-#include "mesher/surface/group_planes.h"
-#include "mesher/surface/planar_growth.h"
 #include "mesher/surface/triangle_contact.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
 // A few roundings of doubles at the largest coordinate.
@@ -34,11 +34,10 @@ bool is_same(const PointStore& points, const std::array<std::uint32_t, 3>& plane
   return true;
 }
 
-class StandInBuilder {
+class Planarizer {
  public:
   // Groups grow by half the bound: their planes may yet be moved by the other half.
-  StandInBuilder(const Surface& surface, double bound, Control& control,
-                 Retriangulate retriangulate)
+  Planarizer(const Surface& surface, double bound, Control& control, Retriangulate retriangulate)
       : given_(surface),
         bound_(bound),
         may_flip_(retriangulate == Retriangulate::yes),
@@ -49,7 +48,7 @@ class StandInBuilder {
         growth_(surface_, bound / 2 * (1 - 0x1p-20), roundings(surface), control),
         planes_(surface_, growth_, control) {}
 
-  StandIn build() {
+  PlanarizedSurface build() {
     if (!growth_.any_nearly_flat()) return {};
     growth_.grow_all();
     growth_.merge_neighbours();
@@ -81,8 +80,8 @@ class StandInBuilder {
   // ---- places
 
   void place_vertices() {
-    stand_in_ = {};
-    stand_in_.planes_of.assign(vertices_.size(), {kNone, kNone, kNone});
+    planarized_ = {};
+    planarized_.planes_of.assign(vertices_.size(), {kNone, kNone, kNone});
     std::vector<std::uint32_t> number(growth_.groups().size(), kNone);
     const auto number_of = [&](std::uint32_t g) {
       if (number[g] == kNone) number[g] = add_plane(planes_.plane(g));
@@ -91,7 +90,7 @@ class StandInBuilder {
     for (VertexId v = 0; v < vertices_.size(); ++v) {
       control_.poll();
       if (planes_.planes_at(v).empty() || !planes_.must_move(v)) continue;
-      std::array<std::uint32_t, 3>& planes = stand_in_.planes_of[v];
+      std::array<std::uint32_t, 3>& planes = planarized_.planes_of[v];
       std::vector<Vec3> normals;
       for (const std::uint32_t g : planes_.planes_at(v)) {
         planes[normals.size()] = number_of(g);
@@ -107,10 +106,10 @@ class StandInBuilder {
     }
   }
   std::uint32_t add_plane(const PlaneEquation& plane) {
-    stand_in_.planes.push_back(plane);
-    return static_cast<std::uint32_t>(stand_in_.planes.size() - 1);
+    planarized_.planes.push_back(plane);
+    return static_cast<std::uint32_t>(planarized_.planes.size() - 1);
   }
-  bool moves(VertexId v) const { return stand_in_.planes_of[v][0] != kNone; }
+  bool moves(VertexId v) const { return planarized_.planes_of[v][0] != kNone; }
   static std::vector<int> axes_left(const std::vector<Vec3>& normals) {
     if (normals.size() >= 3) return {};
     if (normals.size() == 2) return {largest_axis(cross(normals[0], normals[1]))};
@@ -120,18 +119,18 @@ class StandInBuilder {
 
   // ---- certificate
 
-  // Is the stand-in a valid surface with planar groups, and near? If not, takes triangles out of
-  // groups where it is not.
+  // Is the planarized surface a valid surface with planar groups, and near? If not, takes triangles
+  // out of groups where it is not.
   bool certify() {
     bool good = true;
     for (VertexId v = 0; v < vertices_.size(); ++v) {
-      const auto& p = stand_in_.planes_of[v];
+      const auto& p = planarized_.planes_of[v];
       if (p[0] != kNone && parallel(p)) good = !planes_.release(v) && good;
     }
     if (!good) return false;
     const PointStore earlier = std::exchange(points_, {});
     PointStore& points = points_;
-    const std::vector<std::uint8_t> same = add_vertices(given_, stand_in_, points, earlier);
+    const std::vector<std::uint8_t> same = add_vertices(given_, planarized_, points, earlier);
     // Most vertices stay where the last attempt had them.
     ++attempt_;
     changed_at_.resize(vertices_.size(), 0);
@@ -145,7 +144,7 @@ class StandInBuilder {
       const double error = 2 * points.approximation(v).error;
       const double most = kShareOfEdge * (1 - 0x1p-40) * shortest_edge(v);
       if (!(moved + error <= most)) good = !planes_.release(v) && good;
-      stand_in_.displacement = std::max(stand_in_.displacement, moved);
+      planarized_.displacement = std::max(planarized_.displacement, moved);
     }
     if (!good) return false;
     Predicates predicates(points);
@@ -153,7 +152,7 @@ class StandInBuilder {
            meets_nothing_new(predicates) && facets_keep_laws(points, predicates);
   }
   bool parallel(const std::array<std::uint32_t, 3>& p) const {
-    const auto n = [&](std::size_t i) { return stand_in_.planes[p[i]].normal; };
+    const auto n = [&](std::size_t i) { return planarized_.planes[p[i]].normal; };
     return !(std::fabs(dot(n(0), cross(n(1), n(2)))) > 0x1p-30);
   }
   double shortest_edge(VertexId v) {
@@ -312,9 +311,9 @@ class StandInBuilder {
     return meeting.empty();
   }
 
-  // The facets that the stand-in will have are groups, groups that share a plane, parts of groups
-  // that gave up the triangles between them, each with whatever else lies in its plane beside it.
-  // All promises about them are checked once more, exactly.
+  // The facets that the planarized surface will have are groups, groups that share a plane, parts
+  // of groups that gave up the triangles between them, each with whatever else lies in its plane
+  // beside it. All promises about them are checked once more, exactly.
   bool facets_keep_laws(PointStore& points, Predicates& predicates) {
     const ChangedSurface changed{given_, surface_.opposite(), flat_, twin_};
     std::vector<std::uint32_t> against;
@@ -356,9 +355,9 @@ class StandInBuilder {
     return facets_of({given_, opposite, triangles_, opposite}, predicates).size();
   }
 
-  StandIn result() {
-    stand_in_.given_facets = given_facets();
-    if (!flipped_.empty()) stand_in_.triangles = std::move(flat_);
+  PlanarizedSurface result() {
+    planarized_.given_facets = given_facets();
+    if (!flipped_.empty()) planarized_.triangles = std::move(flat_);
     for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
       if (!growth_.is_group(g) || !planes_.moving(g)) continue;
       const PlaneEquation& plane = planes_.plane(planes_.plane_of(g));
@@ -366,13 +365,14 @@ class StandInBuilder {
       if (std::ranges::all_of(list, [&](VertexId v) { return exactly_on(plane, vertices_[v]); })) {
         continue;
       }
-      ++stand_in_.groups;
+      ++planarized_.groups;
       const Fit fit = rough(plane);
       for (const VertexId v : list) {
-        stand_in_.deviation = std::max(stand_in_.deviation, std::fabs(fit.height(vertices_[v])));
+        planarized_.deviation =
+            std::max(planarized_.deviation, std::fabs(fit.height(vertices_[v])));
       }
     }
-    return std::move(stand_in_);
+    return std::move(planarized_);
   }
 
   const Surface& given_;
@@ -384,8 +384,8 @@ class StandInBuilder {
   MeasuredSurface surface_;
   PlanarGrowth growth_;
   GroupPlanes planes_;
-  // On the stand-in, where some edges are flipped: its triangles, the half-edges opposite to
-  // theirs, and the edges made by flips.
+  // On the planarized surface, where some edges are flipped: its triangles, the half-edges opposite
+  // to theirs, and the edges made by flips.
   std::vector<std::array<std::uint32_t, 3>> flat_;
   std::vector<std::uint32_t> twin_;
   std::vector<std::pair<VertexId, VertexId>> flipped_;
@@ -395,30 +395,32 @@ class StandInBuilder {
   PointStore points_;
   std::uint32_t attempt_ = 0;
   std::vector<std::uint32_t> changed_at_, planar_at_;
-  StandIn stand_in_;
+  PlanarizedSurface planarized_;
 };
 
 }  // namespace
 
-StandIn find_stand_in(const Surface& surface, double bound, Control& control,
-                      Retriangulate retriangulate) {
-  if (!(bound > 0)) return {};
-  return StandInBuilder(surface, bound, control, retriangulate).build();
+PlanarizedSurface planarize(const Surface& surface, double bound, Control& control,
+                            Retriangulate retriangulate) {
+  PlanarizedSurface planarized;
+  if (bound > 0) planarized = Planarizer(surface, bound, control, retriangulate).build();
+  planarized.bound = bound;
+  return planarized;
 }
 
-std::vector<std::uint8_t> add_vertices(const Surface& surface, const StandIn& stand_in,
+std::vector<std::uint8_t> add_vertices(const Surface& surface, const PlanarizedSurface& planarized,
                                        PointStore& points, const PointStore& earlier) {
   std::vector<std::uint8_t> same(surface.vertices.size(), 0);
-  for (const PlaneEquation& plane : stand_in.planes) points.add_plane(plane);
+  for (const PlaneEquation& plane : planarized.planes) points.add_plane(plane);
   points.reserve(surface.vertices.size());
   for (VertexId v = 0; v < surface.vertices.size(); ++v) {
     const Vec3& x = surface.vertices[v];
-    if (stand_in.planes_of.empty() || stand_in.planes_of[v][0] == kNone) {
+    if (planarized.planes_of.empty() || planarized.planes_of[v][0] == kNone) {
       points.add_explicit(x[0], x[1], x[2]);
       same[v] = v < earlier.size() && earlier.is_explicit(v);
       continue;
     }
-    const auto& [a, b, c] = stand_in.planes_of[v];
+    const auto& [a, b, c] = planarized.planes_of[v];
     same[v] = v < earlier.size() && is_same(points, {a, b, c}, earlier, v);
     if (same[v] != 0) {
       points.add_on_planes(a, b, c, earlier, v);
@@ -429,4 +431,12 @@ std::vector<std::uint8_t> add_vertices(const Surface& surface, const StandIn& st
   return same;
 }
 
-}  // namespace delmesher::surface
+SurfaceTopology planarized_topology(const Surface& surface, const PlanarizedSurface& planarized,
+                                    PointStore& points, Predicates& predicates) {
+  add_vertices(surface, planarized, points);
+  if (planarized.triangles.empty()) return build_topology(surface, points, predicates);
+  return build_topology({surface.vertices, planarized.triangles, surface.labels}, points,
+                        predicates);
+}
+
+}  // namespace delmesher::planar

@@ -1,4 +1,4 @@
-#include "mesher/surface/planar_groups.h"
+#include "mesher/planar/planarized_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -11,17 +11,17 @@
 
 #include "mesher/base/control.h"
 #include "mesher/geometry/vector.h"
-#include "mesher/surface/flatness.h"
-#include "mesher/surface/group_planes.h"
-#include "mesher/surface/planar_growth.h"
+#include "mesher/planar/flatness.h"
+#include "mesher/planar/group_planes.h"
+#include "mesher/planar/planar_growth.h"
 #include "mesher/surface/test_surfaces.h"
 #include "mesher/surface/topology.h"
 #include "mesher/surface/validity.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
-using namespace test_surfaces;
+using namespace surface::test_surfaces;  // NOLINT(google-build-using-namespace)
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -53,14 +53,14 @@ std::vector<double> shortest_edges(const Surface& s) {
   return shortest;
 }
 
-// The stand-in's topology, checked: every facet exactly planar by its own triangles' predicates,
-// with the corners and the outline that its triangles have as given, every vertex where it was up
-// to the noise, and moved only where a facet of several triangles needs it, by a quarter of its
-// shortest edge at most.
+// The planarized surface's topology, checked: every facet exactly planar by its own triangles'
+// predicates, with the corners and the outline that its triangles have as given, every vertex where
+// it was up to the noise, and moved only where a facet of several triangles needs it, by a quarter
+// of its shortest edge at most.
 struct Grouped {
   Limits limits;
   Control control{limits};
-  StandIn stand_in;
+  PlanarizedSurface planarized;
   PointStore points;
   Predicates predicates{points};
   SurfaceTopology topology;
@@ -68,14 +68,14 @@ struct Grouped {
   Grouped(const Surface& s, double noise, Retriangulate retriangulate = Retriangulate::yes) {
     const ValidityResult validity = check_validity(s, true, control);
     EXPECT_TRUE(validity.report.status.ok()) << validity.report.status.message;
-    stand_in = find_stand_in(s, noise, control, retriangulate);
-    topology = build_topology(s, points, predicates, stand_in);
+    planarized = planarize(s, noise, control, retriangulate);
+    topology = planarized_topology(s, planarized, points, predicates);
     const std::vector<double> shortest = shortest_edges(s);
     for (VertexId v = 0; v < s.vertices.size(); ++v) {
       const double moved = distance(points.nearest(v), s.vertices[v]);
-      EXPECT_LE(moved, stand_in.displacement);
+      EXPECT_LE(moved, planarized.displacement);
       EXPECT_LE(moved, shortest[v] / 4);
-      if (stand_in.planes_of.empty() || stand_in.planes_of[v][0] == kNone) {
+      if (planarized.planes_of.empty() || planarized.planes_of[v][0] == kNone) {
         EXPECT_TRUE(points.is_explicit(v));
       }
     }
@@ -98,7 +98,7 @@ struct Grouped {
     for (VertexId v = 0; v < s.vertices.size(); ++v) {
       EXPECT_TRUE(points.is_explicit(v) || flattened.contains(v)) << "needlessly moved: " << v;
     }
-    EXPECT_LE(stand_in.deviation, noise);
+    EXPECT_LE(planarized.deviation, noise);
   }
   std::size_t facets() const { return topology.facet_triangles.size(); }
 };
@@ -145,11 +145,11 @@ std::vector<std::vector<Word>> digits_of(const PointStore& points, VertexId v) {
 }
 
 // Only those that differ by a plane are others, whatever numbers the planes have.
-TEST(PlanarGroups, PointsOfAnEarlierStandInAreThePointsOfThis) {
+TEST(PlanarGroups, PointsOfAnEarlierPlanarizedSurfaceAreThePointsOfThis) {
   const Surface s = box({0, 0, 0}, {1, 2, 3});
   const PlaneEquation a{{1, 0x1p-20, 0}, {{{0.1, 0.2, 0.3}}}}, b{{0, 1, 0x1p-30}, {{{0, 0, 0}}}},
       c{{0x1p-25, 0, 1}, {{{0, 0, 0.7}}}}, d{{0x1p-25, 0, 1}, {{{0, 0, 0.6}}}};
-  StandIn first, second;
+  PlanarizedSurface first, second;
   first.planes = {a, b, c};
   second.planes = {d, c, a, b};
   const std::array<std::uint32_t, 3> stays = {kNone, kNone, kNone};
@@ -174,8 +174,8 @@ TEST(PlanarGroups, NothingMovesThatIsPlanar) {
   for (const Surface& s : {box({0, 0, 0}, {1, 2, 3}, 3), box({0.1, 0.2, 0.3}, {1.7, 2.1, 3.3}, 2),
                            tetrahedron({0, 0, 0}, {1, 0.3, 0.1}, {0, 1, 0.7}, {0.2, 0.1, 1})}) {
     const Grouped g(s, 1e-9);
-    EXPECT_TRUE(g.stand_in.planes.empty());
-    EXPECT_EQ(g.stand_in.groups, 0U);
+    EXPECT_TRUE(g.planarized.planes.empty());
+    EXPECT_EQ(g.planarized.groups, 0U);
   }
 }
 
@@ -185,11 +185,11 @@ TEST(PlanarGroups, FacesOfARotatedBoxAreSix) {
     EXPECT_GT(Grouped(s, 0).facets(), 6U);  // without, they are not
     const Grouped g = grouped(s);
     EXPECT_EQ(g.facets(), 6U);
-    EXPECT_EQ(g.stand_in.groups, 6U);
-    EXPECT_LT(g.stand_in.displacement, 1e-14);
+    EXPECT_EQ(g.planarized.groups, 6U);
+    EXPECT_LT(g.planarized.displacement, 1e-14);
     const Grouped f = grouped(in_single_precision(s));
     EXPECT_EQ(f.facets(), 6U);
-    EXPECT_LT(f.stand_in.displacement, 1e-5);
+    EXPECT_LT(f.planarized.displacement, 1e-5);
     EXPECT_EQ(grouped(in_decimals(s, 1e-6)).facets(), 6U);
   }
 }
@@ -227,7 +227,7 @@ TEST(PlanarGroups, AreTheSameInAllUnits) {
   for (const int exponent : {0, -20, -47, 30}) {
     const Grouped g = grouped(scaled(s, std::ldexp(1.0, exponent)));
     EXPECT_EQ(g.facets(), 6U) << "in units of 2^" << exponent;
-    EXPECT_EQ(g.stand_in.groups, 1U) << "in units of 2^" << exponent;
+    EXPECT_EQ(g.planarized.groups, 1U) << "in units of 2^" << exponent;
   }
 }
 
@@ -366,7 +366,7 @@ Surface lid_in_two_parts() {
 TEST(PlanarGroups, AFlatFacetLendsItsPlaneToANoisyOne) {
   const Grouped g = grouped(lid_in_two_parts());
   EXPECT_EQ(g.facets(), 7U);
-  EXPECT_EQ(g.stand_in.groups, 1U);
+  EXPECT_EQ(g.planarized.groups, 1U);
 }
 
 // The same with needles in the wall at x = 1 along its edge with the lid.
@@ -396,7 +396,7 @@ Surface lid_beside_needles() {
 TEST(PlanarGroups, NeedlesBesideALentPlaneKeepTheOutlines) {
   const Grouped g = grouped(lid_beside_needles());
   EXPECT_EQ(g.facets(), 7U);
-  EXPECT_FALSE(g.stand_in.triangles.empty());
+  EXPECT_FALSE(g.planarized.triangles.empty());
 }
 
 // A needle belongs to the facet that it was handed to, also when its former one is taken apart.
@@ -502,7 +502,7 @@ TEST(PlanarGroups, LayersWithinTheBoundKeepTheirOutlines) {
     Limits limits;
     Control control{limits};
     if (!check_validity(s, false, control).report.status.ok()) continue;
-    groups += Grouped(s, bound).stand_in.groups;
+    groups += Grouped(s, bound).planarized.groups;
     if (HasFailure()) FAIL() << "round " << round;
   }
   EXPECT_GT(groups, 300U);
@@ -601,7 +601,7 @@ TEST(PlanarGroups, FewGiveWayWhereFourPlanesMeet) {
   EXPECT_EQ(straight.facets(), 36U + 5U);
   const Surface s = rotated(given);
   const Grouped g = grouped(s);
-  EXPECT_GT(g.stand_in.groups, 0U);
+  EXPECT_GT(g.planarized.groups, 0U);
   EXPECT_LE(g.facets(), 36U + 5U + 12U);
   std::size_t long_ones = 0;
   for (const auto& triangles : g.topology.facet_triangles) {
@@ -628,7 +628,7 @@ TEST(PlanarGroups, ATriangleLeftAloneStays) {
   for (std::uint32_t k = 0; k < 7; ++k) s.triangles.push_back({k, (k + 1) % 7, 7});
   s = in_single_precision(s);
   const Grouped g(s, 2.248e-8, Retriangulate::no);  // four times its largest small bend
-  EXPECT_EQ(g.stand_in.groups, 1U);
+  EXPECT_EQ(g.planarized.groups, 1U);
   EXPECT_TRUE(g.points.is_explicit(5) && g.points.is_explicit(6));
 }
 
@@ -782,4 +782,4 @@ TEST(PlanarGroups, EveryStepOfThePlanesCanBeStopped) {
 }
 
 }  // namespace
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

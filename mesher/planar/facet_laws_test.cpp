@@ -1,18 +1,18 @@
-#include "mesher/surface/facet_laws.h"
+#include "mesher/planar/facet_laws.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "mesher/planar/planar_growth.h"
+#include "mesher/planar/planarized_surface.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/planar_groups.h"
-#include "mesher/surface/planar_growth.h"
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
-using namespace test_surfaces;
+using namespace surface::test_surfaces;  // NOLINT(google-build-using-namespace)
 
 // A surface, its neighbours, and its points.
 struct Changed {
@@ -116,4 +116,4 @@ TEST(FacetLaws, ACornerAtTheBoundIsNearAndOneBeyondIsFar) {
 }
 
 }  // namespace
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

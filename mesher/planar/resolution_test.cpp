@@ -1,4 +1,4 @@
-#include "mesher/surface/resolution.h"
+#include "mesher/planar/resolution.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
-using namespace test_surfaces;
+using namespace surface::test_surfaces;  // NOLINT(google-build-using-namespace)
 
 constexpr double kAnything = 1e6;
 // Half a unit on each of three axes.
@@ -85,4 +85,4 @@ TEST(Resolution, APlaceTooCoarseIsMeant) {
 }
 
 }  // namespace
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

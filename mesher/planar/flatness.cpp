@@ -1,4 +1,4 @@
-#include "mesher/surface/flatness.h"
+#include "mesher/planar/flatness.h"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "mesher/geometry/vector.h"
-#include "mesher/surface/edge_bends.h"
-#include "mesher/surface/planar_growth.h"
-#include "mesher/surface/resolution.h"
+#include "mesher/planar/edge_bends.h"
+#include "mesher/planar/planar_growth.h"
+#include "mesher/planar/resolution.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
 using predicates::Vec3;
@@ -122,4 +122,4 @@ double flatness(const Surface& surface, Control& control) {
   return result;
 }
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

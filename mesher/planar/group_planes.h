@@ -1,15 +1,15 @@
 // The planes of planar groups: which groups share one, and which planes meet at a vertex
-// (planar_groups.h says what for).
+// (planarized_surface.h says what for).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/planar/planar_growth.h"
 #include "mesher/predicates/points.h"
-#include "mesher/surface/planar_growth.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 
 // Is the point on the plane exactly?
 bool exactly_on(const PlaneEquation& plane, const Vec3& p);
@@ -104,4 +104,4 @@ class GroupPlanes {
   std::vector<Departure> departures_;
 };
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

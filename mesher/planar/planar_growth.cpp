@@ -1,4 +1,4 @@
-#include "mesher/surface/planar_growth.h"
+#include "mesher/planar/planar_growth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "mesher/predicates/signs_of_doubles.h"
 #include "mesher/surface/half_edges.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
 // A group that cannot be is taken apart with a bound smaller by this factor, several times.
@@ -453,4 +453,4 @@ std::vector<VertexId> PlanarGrowth::vertices_of(std::uint32_t group) const {
   return list;
 }
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -1,4 +1,4 @@
-#include "mesher/surface/edge_bends.h"
+#include "mesher/planar/edge_bends.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include "mesher/geometry/vector.h"
 #include "mesher/surface/half_edges.h"
 
-namespace delmesher::surface {
+namespace delmesher::planar {
 namespace {
 
 using predicates::Vec3;
@@ -96,4 +96,4 @@ double noise_of_bends(const std::vector<double>& bends, double rounding, double 
   return noise;
 }
 
-}  // namespace delmesher::surface
+}  // namespace delmesher::planar

@@ -1,0 +1,133 @@
+#include "mesher/planar/planar.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesher/base/sort_unique.h"
+#include "mesher/planar/flatness.h"
+#include "mesher/surface/given_place.h"
+
+namespace delmesher::planar {
+namespace {
+
+Surface in_given_coordinates(const Surface& surface, const Session& s) {
+  Surface result = surface;
+  for (Vec3& p : result.vertices) p = s.frame.given(p);
+  return result;
+}
+
+// The largest distance that a vertex may have from the plane of its facet, in input units. It is
+// half of the deviation allowed, because a triangle may be as far on the other side of the plane.
+double bound_of(const Surface& surface, double planar, const Session& s) {
+  if (planar != kPlanarAuto) return planar / 2 * s.diagonal;
+  // How finely coordinates are written is seen in those that were given. Twice: planes may be moved
+  // by as much again for vertices that lie on more than three.
+  return 2 * (s.frame.moved() ? flatness(in_given_coordinates(surface, s), s.control)
+                              : flatness(surface, s.control));
+}
+
+// Gives supports to the points that the mesh has on the surface, and to those on the outer box,
+// whose planes are numbered after the planes of the surface.
+void set_supports(const ConformingMesh& mesh, const Session& session, SurfaceAsGiven& as_given) {
+  const SurfaceTopology& s = as_given.topology;
+  std::vector<std::vector<PlaneId>> planes(as_given.points.size());
+  for (const SurfaceFace& face : mesh.boundary) {
+    for (const VertexId v : face.vertices) planes[v].push_back(s.facet_plane[face.facet]);
+  }
+  const auto before = static_cast<PlaneId>(session.surface.topology().plane_count),
+             now = static_cast<PlaneId>(s.plane_count);
+  const auto corners = static_cast<VertexId>(session.input_vertices());
+  for (VertexId v = corners; v < planes.size(); ++v) {
+    for (const PlaneId plane : session.points.planes(v)) {
+      if (plane >= before) planes[v].push_back(plane - before + now);
+    }
+    sort_unique(planes[v]);
+    std::vector<std::uint32_t> lines;
+    const PointDefinition d = as_given.points.definition(v);
+    if (d.kind == PointKind::on_segment && d.corner[0] < corners) {
+      const std::uint32_t edge = edge_between(s, d.corner[0], d.corner[1]);
+      if (edge != kNone && s.edge_is_flat[edge] == 0) lines = {edge, s.edge_line[edge]};
+      sort_unique(lines);
+    }
+    if (!planes[v].empty()) as_given.points.set_supports(v, planes[v], lines);
+  }
+}
+
+// By exact signs, without supports.
+bool conforms(const ConformingMesh& mesh, const SurfaceTopology& as_given, const PointStore& points,
+              Control& control) {
+  Predicates predicates(points);
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    control.poll();
+    if (predicates.orient3d(a, b, c, d) <= 0) return false;
+  }
+  return std::ranges::all_of(mesh.boundary, [&](const SurfaceFace& face) {
+    const auto& [a, b, c] = as_given.triangles[as_given.facet_triangles[face.facet].front()];
+    return std::ranges::all_of(face.vertices, [&, a = a, b = b, c = c](VertexId v) {
+      return predicates.orient3d(a, b, c, v) == 0;
+    });
+  });
+}
+
+PointStore vertices_of(const PointStore& points, std::size_t count) {
+  PointStore vertices;
+  for (std::uint32_t n = 0; n < points.plane_count(); ++n) vertices.add_plane(points.plane(n));
+  vertices.copy_corners(points, count);
+  return vertices;
+}
+
+}  // namespace
+
+bool goes_back(const Options& options) {
+  return options.planar == 0 && options.improve && !options.approximate;
+}
+
+PlanarizedSurface enter_surface(const Surface& surface, const ValidityResult& validity,
+                                Planes planes, Session& session) {
+  const Surface outwards = oriented_outwards(surface, validity);
+  const bool returns = planes == Planes::while_refined;
+  const double bound =
+      planes == Planes::none
+          ? 0
+          : bound_of(outwards, returns ? kPlanarAuto : session.options.planar, session);
+  PlanarizedSurface planarized =
+      planarize(outwards, bound, session.control, returns ? Retriangulate::no : Retriangulate::yes);
+  SurfaceTopology topology =
+      planarized_topology(outwards, planarized, session.points, session.predicates);
+  if (planarized.planes.empty()) {
+    session.surface.enter_given(std::move(topology));
+  } else {
+    session.surface.enter_planarized(std::move(topology), outwards.vertices);
+  }
+  return planarized;
+}
+
+SurfaceAsGiven as_given(const Session& session) {
+  const std::span<const Vec3> given = session.surface.given_vertices();
+  const SurfaceTopology& planarized = session.surface.topology();
+  SurfaceAsGiven result;
+  Predicates predicates(result.points);
+  result.topology =
+      build_topology({{given.begin(), given.end()}, planarized.triangles, planarized.labels},
+                     result.points, predicates);
+  append_as_given(session.points, given, result.points);
+  return result;
+}
+
+void return_to(SurfaceAsGiven as_given, Session& session) {
+  session.surface.return_to_given(std::move(as_given.topology),
+                                  vertices_of(session.points, session.input_vertices()));
+  session.points = std::move(as_given.points);
+}
+
+bool go_back(const ConformingMesh& mesh, Session& session) {
+  SurfaceAsGiven returned = as_given(session);
+  PointStore without_supports;
+  append_as_given(session.points, session.surface.given_vertices(), without_supports);
+  if (!conforms(mesh, returned.topology, without_supports, session.control)) return false;
+  set_supports(mesh, session, returned);
+  return_to(std::move(returned), session);
+  return true;
+}
+
+}  // namespace delmesher::planar
