@@ -1,5 +1,5 @@
 // Each folder of the mesher is a namespace of its own and sees the names of those that it may
-// include (ci/check_tree.py), as if they were its own. The public namespace, delmesher, holds what
+// include (ci/checks/tree.py), as if they were its own. The public namespace, delmesher, holds what
 // delmesher.h and its companions declare, and nothing else.
 #pragma once
 

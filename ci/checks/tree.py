@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks of the source tree that no compiler makes: include directions, machine paths, licence notes, one list of packages.
 
-Usage: check_tree.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
+Usage: tree.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
 """
 import itertools
 import os
@@ -294,7 +294,7 @@ def check_tree(root):
 
 
 def main():
-    root = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), ".."))
+    root = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), "..", ".."))
     violations = list(check_tree(root))
     for path, number, reason in violations:
         print("%s:%d: %s" % (path, number, reason))

@@ -9,7 +9,7 @@ be a word of one of the files that the row names.
 Links within the tree must lead somewhere, and so must the files that CONTRIBUTING.md names with a folder: relative to the root, or to the
 folder of the project that the sentence is about.
 
-Usage: check_readmes.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
+Usage: readmes.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
 """
 import os
 import re
@@ -130,4 +130,4 @@ def check_all(root):
 
 
 if __name__ == "__main__":
-    sys.exit(check_all(os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), ".."))))
+    sys.exit(check_all(os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), "..", ".."))))

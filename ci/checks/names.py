@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Naming by clang-tidy (.clang-tidy) over the files of a compilation database.
 
-Usage: check_names.py BUILD_DIR [JOBS]. Files that passed before and have not changed since, nor any header, are
+Usage: names.py BUILD_DIR [JOBS]. Files that passed before and have not changed since, nor any header, are
 not read again. Exits 1 and prints clang-tidy's words if a name breaks the rules.
 
 Most of the time would go into the headers of libraries, once per file. So files of a folder that are compiled alike are
@@ -19,7 +19,7 @@ import shlex
 import subprocess
 import sys
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), ".."))
+ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 FOLDERS = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports")
 TOGETHER = 64  # files
 FEW = 12

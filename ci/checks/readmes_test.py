@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""check_readmes.py must catch a table that is wrong, and pass one that is right."""
+"""readmes.py must catch a table that is wrong, and pass one that is right."""
 import contextlib
 import io
 import os
@@ -8,15 +8,15 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import check_readmes  # noqa: E402
+import readmes  # noqa: E402
 
 SOURCES = {
     "mesher/refine/goal.h": "struct Goal {\n  int badness(int t) const;\n};\nconstexpr int kWorst = 254;\n",
     "mesher/refine/goal.cpp": "int Goal::badness(int t) const {\n  // twisted(t)\n  return level_of(t);\n}\n",
     "mesher/refine/level.cpp": "static int level_of(int t) {\n  return t;\n}\nenum class Level { low };\n",
 }
-HEAD = check_readmes.HEAD + "\n|---|---|---|\n"
-PROSE = check_readmes.PROSE + "\n|---|---|\n"
+HEAD = readmes.HEAD + "\n|---|---|---|\n"
+PROSE = readmes.PROSE + "\n|---|---|\n"
 
 GOOD = {
     "a function": HEAD + "| how bad | `refine/goal.cpp` | `badness`, `Goal::badness` |",
@@ -50,7 +50,7 @@ def complaints(readme, path="mesher/README.md"):
                 stream.write(text + "\n")
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
-            code = check_readmes.check_all(root)
+            code = readmes.check_all(root)
         return code, said.getvalue()
 
 
@@ -74,7 +74,7 @@ class CheckReadmes(unittest.TestCase):
 
     def test_a_tree_without_tables_does_not(self):
         with tempfile.TemporaryDirectory() as root, contextlib.redirect_stdout(io.StringIO()):
-            self.assertEqual(check_readmes.check_all(root), 1)
+            self.assertEqual(readmes.check_all(root), 1)
 
 
 if __name__ == "__main__":

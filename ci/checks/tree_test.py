@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Every rule of check_tree.py must catch a tree that breaks it, and pass one that does not."""
+"""Every rule of tree.py must catch a tree that breaks it, and pass one that does not."""
 import os
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import check_tree  # noqa: E402
+import tree  # noqa: E402
 
 GOOD = {
     "LICENSE": "MIT License",
@@ -90,7 +90,7 @@ def violations(files):
             os.makedirs(os.path.dirname(os.path.join(root, path)) or root, exist_ok=True)
             with open(os.path.join(root, path), "w", encoding="utf-8") as stream:
                 stream.write(text)
-        return ["%s:%d: %s" % v for v in check_tree.check_tree(root)]
+        return ["%s:%d: %s" % v for v in tree.check_tree(root)]
 
 
 class CheckTreeTest(unittest.TestCase):
