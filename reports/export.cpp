@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "reports/measures.h"
 #include "reports/table.h"
 #include "reports/text.h"
 
@@ -112,6 +113,7 @@ Json to_object(const RunRow& row, const ExportOptions& options) {
   if (!options.stable) put_measurements(json, row, brief);
   if (brief && !row.stats_json.empty()) json["stats"] = brief_stats(row.stats_json);
   if (brief || options.stable) return json;
+  if (row.disposition != Disposition::ok) json["kind"] = failure_kind(row);
   if (!row.stats_json.empty()) json["stats"] = parsed(row.stats_json);
   json["stderr_tail"] = row.stderr_tail;
   json["stdout_tail"] = row.stdout_tail;

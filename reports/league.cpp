@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -84,26 +83,6 @@ std::optional<double> median_ratio(const Rows& theirs, const Rows& ours, const V
     if (a && b && *a != 0) ratios.push_back(*b / *a);
   }
   return median(std::move(ratios));
-}
-
-// Disposition and last words, without numbers and without the name of the model; of a wrong
-// result the oracle's name.
-std::string kind_of(const RunRow& row) {
-  const std::string name = disposition_name(row.disposition);
-  if (row.disposition == Disposition::timeout || row.disposition == Disposition::out_of_memory) {
-    return name;
-  }
-  std::string reason = row.reason;
-  const std::string model = short_name(row.model_name);
-  for (std::size_t at = 0; (at = reason.find(model, at)) != std::string::npos;) {
-    reason.replace(at, model.size(), "MODEL");
-    at += 5;
-  }
-  static const std::regex kOracle("verify: (\\w+: [\\w -]+):[^]*");
-  static const std::regex kNumber("-?\\d+(\\.\\d+)?(e[-+]?\\d+)?");
-  std::smatch oracle;
-  if (std::regex_match(reason, oracle, kOracle)) return name + ": " + oracle[1].str();
-  return name + ": " + std::regex_replace(reason, kNumber, "#");
 }
 
 std::vector<std::string> league_row(const Selection& selection, const std::string& mesher) {
@@ -306,7 +285,7 @@ Table failure_kinds(const Selection& selection) {
     for (const std::string& model : selection.models) {
       const RunRow* row = selection.run(mesher, model);
       if (row == nullptr || row->disposition == Disposition::ok) continue;
-      kinds[kind_of(*row)].push_back(short_name(row->model_name));
+      kinds[failure_kind(*row)].push_back(short_name(row->model_name));
     }
     std::vector<std::pair<std::string, std::vector<std::string>>> listed(kinds.begin(),
                                                                          kinds.end());

@@ -138,16 +138,16 @@ TEST_F(League, PairsTellWhoSucceedsAlone) {
 TEST_F(League, FailuresOfAKindAreCountedTogether) {
   Selection selection = campaign();
   auto& runs = selection.runs.at("tetgen-T0");
-  for (auto& [model, row] : runs) row.model_name = "m" + row.model_name + ".off";
-  runs.at("hash-b").reason = "mb.off: 7 points, 1.5e-3 apart";
-  runs.at("hash-c").reason = "mc.off: 8 points, 2 apart";
+  for (auto& [model, row] : runs) row.model_name = "d/m" + row.model_name + ".off";
+  runs.at("hash-b").reason = "p: d/mb.off: 7 points, 1.5e-3 apart";
+  runs.at("hash-c").reason = "p: mc.off: 8 points, -2 apart";
   selection.runs.at("cdt").at("hash-a").disposition = Disposition::wrong_result;
   selection.runs.at("cdt").at("hash-a").reason = "verify: broken: conformity: edge 1\nis gone";
   const Table table = failure_kinds(selection);
   const auto has = [&](const std::vector<std::string>& row) {
     return std::find(table.rows.begin(), table.rows.end(), row) != table.rows.end();
   };
-  EXPECT_TRUE(has({"tetgen-T0", "rejected: MODEL.off: # points, # apart", "2", "mb, mc"}));
+  EXPECT_TRUE(has({"tetgen-T0", "rejected: p: MODEL: # points, # apart", "2", "mb, mc"}));
   EXPECT_TRUE(has({"cdt", "wrong-result: broken: conformity", "1", "a"}));
   EXPECT_TRUE(has({"delmesher-e4", "timeout", "1", "b"}));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <regex>
 #include <set>
 
 namespace tetproof {
@@ -165,6 +166,26 @@ std::size_t style_of(const Selection& selection, const std::string& mesher) {
 
 std::string short_name(const std::string& model_name) {
   return std::filesystem::path(model_name).stem().string();
+}
+
+std::string failure_kind(const RunRow& row) {
+  const std::string name = disposition_name(row.disposition);
+  if (row.disposition == Disposition::timeout || row.disposition == Disposition::out_of_memory) {
+    return name;
+  }
+  std::string reason = row.reason;
+  const std::string file = std::filesystem::path(row.model_name).filename().string();
+  for (const std::string& model : {row.model_name, file, short_name(file)}) {
+    if (model.empty()) continue;
+    for (std::size_t at = 0; (at = reason.find(model, at)) != std::string::npos; at += 5) {
+      reason.replace(at, model.size(), "MODEL");
+    }
+  }
+  static const std::regex kOracle("verify: (\\w+: [\\w -]+):[^]*");
+  static const std::regex kNumber("-?\\d+(\\.\\d+)?(e[-+]?\\d+)?");
+  std::smatch oracle;
+  if (std::regex_match(reason, oracle, kOracle)) return name + ": " + oracle[1].str();
+  return name + ": " + std::regex_replace(reason, kNumber, "#");
 }
 
 }  // namespace tetproof

@@ -113,4 +113,8 @@ std::size_t style_of(const Selection& selection, const std::string& mesher);
 // The file's name without folders and extension.
 std::string short_name(const std::string& model_name);
 
+// What a failure has in common with others of its kind: disposition and last words, without numbers
+// and without the name of the model; of a wrong result the oracle's name.
+std::string failure_kind(const RunRow& row);
+
 }  // namespace tetproof
