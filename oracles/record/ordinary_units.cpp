@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace tetproof::oracles {
 namespace {
@@ -59,12 +60,7 @@ std::optional<InOrdinaryUnits> in_ordinary_units(const Polyhedron& input, const 
   for (Position& p : result.input.vertices) scaled(p);
   for (Position& p : result.mesh.vertices) scaled(p);
   for (MeshFile::EdgeNode& node : result.mesh.edge_nodes) scaled(node.at);
-  scaled(result.promise.chamfer_radius);
-  scaled(result.promise.max_edge);
-  for (delmesher::SizeSource& source : result.promise.size_field) {
-    scaled(source.point);
-    scaled(source.size);
-  }
+  for_each_length(result.promise, std::ref(scaled));
   if (record != nullptr) scale(result.record.emplace(*record), scaled);
   if (!scaled.exact()) return {};
   return result;

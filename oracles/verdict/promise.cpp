@@ -60,6 +60,7 @@ unsigned bit_of(Task task) {
 enum class Takes : std::uint8_t {
   nothing,
   number,
+  length,   // a number in input units
   word,     // one of two
   file,     // where something is written, or what something is called
   outputs,  // the same, several times
@@ -96,8 +97,8 @@ constexpr Option kOptions[] = {
     {"--acute", kMesh, Takes::number, &Promise::acute, 0, 90},
     {"--acute", kPlane, Takes::number, &Promise::acute, 60, 90},
     {"--corner", kMesh, Takes::number, &Promise::corner, 0, 90},
-    {"--chamfer-radius", kMesh | kPlane, Takes::number, &Promise::chamfer_radius, 0, kMost, true},
-    {"--max-edge", kMesh | kPlane | kImprove, Takes::number, &Promise::max_edge, 0, kMost, true},
+    {"--chamfer-radius", kMesh | kPlane, Takes::length, &Promise::chamfer_radius, 0, kMost, true},
+    {"--max-edge", kMesh | kPlane | kImprove, Takes::length, &Promise::max_edge, 0, kMost, true},
     {"--size-field", kMesh | kImprove, Takes::sizes},
     {"--size-growth", kMesh | kImprove, Takes::number, &Promise::size_growth, 0, 1, true},
     {"--budget", kMesh, Takes::number, &Promise::budget, 1, 1e15},
@@ -299,6 +300,7 @@ class PromiseReader {
         return name + " is " + option.words[0] + " or " + option.words[1] + ", not \"" + *value_ +
                "\"";
       case Takes::number:
+      case Takes::length:
         return take_number(option, p);
       default:
         put(option, true, p);
@@ -513,6 +515,17 @@ double Promise::corner_in_force() const {
 
 std::string parse_promise(std::string_view text, Promise& promise) {
   return PromiseReader(text).read(promise);
+}
+
+void for_each_length(Promise& promise, const std::function<void(double&)>& visit) {
+  for (const Option& option : kOptions) {
+    if (option.takes == Takes::length) visit(promise.*std::get<double Promise::*>(option.target));
+    if (option.takes != Takes::sizes) continue;
+    for (delmesher::SizeSource& source : promise.size_field) {
+      for (double& x : source.point) visit(x);
+      visit(source.size);
+    }
+  }
 }
 
 Promise promise_of(const delmesher::Options& options) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,6 +63,9 @@ struct Promise {
   // chamfered is an angle of the mesh, so the threshold has to exceed delta by some degrees.
   double corner_in_force() const;
 };
+
+// Every coordinate and length of a promise, in input units.
+void for_each_length(Promise& promise, const std::function<void(double&)>& visit);
 
 // Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS',
 // 'improve OPTIONS'; without a first word `mesh` is meant. Options that promise nothing of the
