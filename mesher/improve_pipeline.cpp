@@ -163,6 +163,7 @@ void take_result(const TetMesh& given, improve::ImproveResult improved, const Re
   mesh.boundary_labels.resize(mesh.boundary.size());
   mesh.boundary_facets = given.boundary_facets;
   mesh.boundary_facets.resize(mesh.boundary.size());
+  mesh.planar_within = given.planar_within;
 }
 
 void count_not_positive(const TetMesh& mesh, Statistics& statistics) {

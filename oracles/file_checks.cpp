@@ -118,8 +118,8 @@ std::string FileStep::run() {
     }
     add(std::move(nodes));
   }
-  if (exact_ == nullptr && options_.promised.max_vertices > 0) {
-    add(check_written_vertices(options_.promised, mesh_.vertices.size()));
+  if (exact_ == nullptr && (options_.promised.max_vertices > 0 || mesh_.planar_within > 0)) {
+    add(check_written(options_.promised, mesh_.vertices.size(), mesh_.planar_within));
   }
 
   const auto offset = static_cast<Index>(input_.vertices.size());

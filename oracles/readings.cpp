@@ -29,6 +29,10 @@ const Readings::Reading Readings::kReadings[] = {
      &Readings::near_planar_recorded, &Readings::has_recorded_facets},
     {"deviating", "the deviation is measured; the verdict and --declared-deviation judge it",
      &Readings::always, &Readings::deviates},
+    {"wider slab",
+     "nothing says how far facets are from planar; the slab is measured, and the verdict, "
+     "--promised and --declared-deviation judge it",
+     &Readings::near_planar_unstated, &Readings::has_wider_slab},
 };
 
 Readings::Readings(const Subject& subject, const TetComplex& complex, const Neighbours& neighbours,
@@ -40,7 +44,10 @@ Readings::Readings(const Subject& subject, const TetComplex& complex, const Neig
       neighbours_(neighbours),
       surface_(surface),
       rounding_(kRoundedUlps * ulp),
+      diagonal_(diagonal),
       bound_(subject.options.promised.planar_share() * diagonal),
+      widest_(subject.options.promised.most_planar() * diagonal),
+      stated_(subject.options.promised.stated_planar.has_value()),
       declared_(subject.options.declared_deviation * diagonal) {
   const double share = rounding_ / diagonal;
   // A solid may be so small that roundings are a larger share of its diagonal.
@@ -93,6 +100,7 @@ bool Readings::conforms_to(InputSurface flat, double width) {
   if (!of_flat.report.passed() || !near) return false;
   of_flat.slab = width;
   of_flat.deviation = std::max(of_flat.deviation, width);
+  of_flat.report.figures.emplace_back("slab over diagonal", width / diagonal_);
   of_flat.report.figures.emplace_back(
       "facets united",
       static_cast<double>(surface_.facets().size()) - static_cast<double>(flat.facets().size()));
@@ -128,6 +136,11 @@ bool Readings::has_recorded_facets() {
 bool Readings::deviates() {
   result_ = check(surface_, rounded_);
   return result_.report.passed();
+}
+
+bool Readings::has_wider_slab() {
+  bound_ = widest_;
+  return has_united_facets() || has_moved_needles();
 }
 
 // Per triangle of the input the facet that has it, by the record; empty if a triangle is in none.

@@ -17,7 +17,7 @@ class Readings {
   Readings(const Subject& subject, const TetComplex& complex, const Neighbours& neighbours,
            const InputSurface& surface, double ulp, double diagonal);
 
-  // If the mesh conforms under no reading, that of the last one.
+  // If the mesh conforms under no reading, that of "deviating".
   ConformityResult conformity();
   // The surface of the reading that counts.
   const InputSurface& surface() const { return united_ ? *united_ : surface_; }
@@ -30,12 +30,14 @@ class Readings {
   bool near_planar() const { return bound_ > 0; }
   bool near_planar_alone() const { return bound_ > 0 && exact_ == nullptr; }
   bool near_planar_recorded() const { return bound_ > 0 && exact_ != nullptr; }
+  bool near_planar_unstated() const { return widest_ > bound_ && !stated_; }
   bool is_exact();
   bool is_rounded();
   bool has_united_facets();
   bool has_moved_needles();
   bool has_recorded_facets();
   bool deviates();
+  bool has_wider_slab();
 
   ConformityResult check(const InputSurface& on, ConformityOptions options) const;
   bool conforms_to(InputSurface flat, double width);
@@ -49,7 +51,10 @@ class Readings {
   const Neighbours& neighbours_;
   const InputSurface& surface_;
   double rounding_;  // what rounding may move, in input units
-  double bound_;     // width of the slab that was promised for facets, in input units; 0: none
+  double diagonal_;  // this and the next four in input units
+  double bound_;     // width of the slab that was promised for facets; 0: none
+  double widest_;    // the same of what --planar allows a run to state
+  bool stated_;
   double declared_;  // deviation, in input units
   ConformityOptions rounded_{.exact = false}, as_rounded_{.exact = false};
   ConformityResult result_;

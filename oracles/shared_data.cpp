@@ -64,17 +64,6 @@ std::string out_of_range(const ExactRecord& record, std::size_t triangles) {
   return {};
 }
 
-// The diagonal of the bounding box of the vertices that have triangles.
-double diagonal_of(const Polyhedron& input) {
-  Box box;
-  for (const auto& t : input.triangles) {
-    for (const Index v : t) {
-      if (v < input.vertices.size()) box.add(input.vertices[v]);
-    }
-  }
-  return box.diagonal();
-}
-
 // Does a face of the final mesh tile a facet that the record, whose facets are those of the surface
 // that was refined, does not list?
 bool names_other_facets(const ExactRecord& record) {
@@ -87,6 +76,16 @@ bool names_other_facets(const ExactRecord& record) {
 }
 
 }  // namespace
+
+double diagonal_of(const Polyhedron& input) {
+  Box box;
+  for (const auto& t : input.triangles) {
+    for (const Index v : t) {
+      if (v < input.vertices.size()) box.add(input.vertices[v]);
+    }
+  }
+  return box.diagonal();
+}
 
 TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoints& points) {
   TetComplex complex{&points, {}, {}, 0, 0};

@@ -19,6 +19,9 @@
 
 namespace tetproof::oracles {
 
+// Of the bounding box of the vertices that have triangles.
+double diagonal_of(const Polyhedron& input);
+
 // The tetrahedra of the record on its points. Has no vertices of its own.
 TetComplex complex_of(const std::vector<delmesher::ExactRecord::Tet>& tets,
                       const ExactPoints& points);

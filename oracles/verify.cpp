@@ -14,7 +14,6 @@
 #include "oracles/plan.h"
 #include "oracles/record/ordinary_units.h"
 #include "oracles/record/record_origin.h"
-#include "oracles/surface/input_digits.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -71,6 +70,18 @@ void put_in_ordinary_units(Frame& frame) {
   frame.options.sidecar.clear();
 }
 
+// How far facets may be from planar, as a fraction of the diagonal: the least of what the record
+// and the file say. The promise caps it (Promise::most_planar).
+std::optional<double> stated_planar(const Frame& frame) {
+  std::optional<double> stated;
+  if (frame.mesh->planar_within > 0) stated = frame.mesh->planar_within;
+  if (frame.exact == nullptr) return stated;
+  const double diagonal = diagonal_of(*frame.input);
+  const double recorded = diagonal > 0 ? 2 * frame.exact->parameters.planar / diagonal : 0;
+  if (!(recorded > 0)) return 0;  // nor if it is not a number
+  return std::min(recorded, stated.value_or(recorded));
+}
+
 // Every deviation; other figures of lengths stay.
 void put_in_given_units(const Frame& frame, VerifyReport& report) {
   if (!frame.scaled) return;
@@ -92,14 +103,14 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
                    const VerifyOptions& options, VerifyReport& report,
                    const Expendable& expendable) {
   Frame frame{&input, &mesh, exact, options, expendable};
-  frame.options.promised.automatic_planar = automatic_planar_share(input);
   report = {};
-  report.planar_share = frame.options.promised.planar_share();
   if (exact != nullptr && names_origin(*exact) && !move_beside_origin(frame, report)) {
     conclude(0, 0, report);
     return {};
   }
   put_in_ordinary_units(frame);
+  frame.options.promised.stated_planar = stated_planar(frame);
+  report.planar_share = frame.options.promised.planar_share();
 
   std::unique_ptr<SharedData> shared;
   Memory memory(frame.expendable, [&shared] { shared->forget_refined(); });

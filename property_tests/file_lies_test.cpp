@@ -446,6 +446,38 @@ TEST(FileLies, AreRefused) {
   for (const Lie& lie : kNameLies) tell(of_names(), lie);
 }
 
+// A box that was rotated and rounded to four decimals, so that its facets are planar within more
+// than `auto` takes without evidence. Each file says its number; a record, which says it as well,
+// is believed only where that is less.
+TEST(FileLies, SayHowFarFacetsAreFromPlanar) {
+  const Meshed model("turned.off",
+                     "OFF\n8 12 0\n0 0 0\n1.9182 0.7780 2.1714\n-1.0422 1.6768 0.3199\n"
+                     "0.8761 2.4548 2.4913\n-0.5654 -0.4794 0.6712\n1.3529 0.2986 2.8426\n"
+                     "-1.6075 1.1973 0.9911\n0.3107 1.9754 3.1625\n3 0 2 3\n3 0 3 1\n3 4 5 7\n"
+                     "3 4 7 6\n3 0 1 5\n3 0 5 4\n3 2 6 7\n3 2 7 3\n3 0 4 6\n3 0 6 2\n3 1 3 7\n"
+                     "3 1 7 5\n",
+                     "mesh --ascii", {{"mesh"}, {"msh"}, {"vtu"}, {"node", "ele", "face"}});
+  for (const char* const extension : {"mesh", "msh", "vtu", "node"}) {
+    const std::string& honest = model.files().at(extension);
+    EXPECT_EQ(model.verify(extension, honest, false), 0) << extension;
+    EXPECT_EQ(model.verify(extension, honest, true), 0) << extension;
+    const char* const number = "(PlanarWithin( |[^>\n]*>\\s*))[-0-9.e]+";
+    for (const Lie& lie : {Lie{extension, "less than the facets are", number, "$011e-12", 1, 1},
+                           {extension, "more than auto may", number, "$010.0003", 1, 0},
+                           {extension, "nothing", "PlanarWithin", "OtherNumber", 1, 0},
+                           {extension, "a negative one", number, "$01-1e-5", 3, 3},
+                           {extension, "zero", number, "$010", 3, 3},
+                           {extension, "a word", number, "$01less", 3, 3}}) {
+      tell(model, lie);
+    }
+  }
+  const char* const line = "(# PlanarWithin.*\n)";
+  tell(model, {"mesh", "twice", line, "$01$01", 3, 3});
+  tell(model, {"node", "twice", line, "$01$01", 3, 3});
+  tell(model, {"msh", "twice", "(PlanarWithin.*\n)", "$01$01", 3, 3});
+  tell(model, {"vtu", "twice", "(<DataArray[^>]*PlanarWithin[^/]*</DataArray>)", "$01$01", 3, 3});
+}
+
 // Files of others often have names in Latin-1, which XML cannot have, and which Python refuses.
 TEST(FileLies, NamesInLatin1BecomeUtf8) {
   std::string stl;

@@ -391,6 +391,7 @@ oracles::MeshFile to_mesh(const delmesher::TetMesh& mesh) {
   file.boundary = mesh.boundary;
   file.labels = mesh.boundary_labels;
   file.facets = mesh.boundary_facets;
+  file.planar_within = mesh.planar_within;
   return file;
 }
 

@@ -260,6 +260,7 @@ void put_mesh(py::dict& d, TetMesh&& mesh) {
   d["boundary"] = taken(std::move(mesh.boundary));
   d["labels"] = taken(std::move(mesh.boundary_labels));
   d["facets"] = taken(std::move(mesh.boundary_facets));
+  d["planar_within"] = mesh.planar_within;
 }
 
 py::dict dict_of(Result&& result) {
@@ -304,6 +305,7 @@ TetMesh mesh_of(const py::dict& d) {
       rows_of<std::uint32_t, 3>(py::cast<Array<std::uint32_t>>(d["boundary"]), "boundary");
   mesh.boundary_labels = values_of(py::cast<Array<std::int32_t>>(d["labels"]), "labels");
   mesh.boundary_facets = values_of(py::cast<Array<std::uint32_t>>(d["facets"]), "facets");
+  mesh.planar_within = py::cast<double>(d["planar_within"]);
   return mesh;
 }
 

@@ -20,6 +20,9 @@ struct TetMesh {
   std::vector<std::array<std::uint32_t, 3>> boundary;
   std::vector<std::int32_t> boundary_labels;
   std::vector<std::uint32_t> boundary_facets;
+  // How far the boundary may be from the input surface between the vertices and edges of that, as a
+  // fraction of the diagonal of the bounding box: Options::planar in force. 0: as given.
+  double planar_within = 0;
 };
 
 }  // namespace delmesher

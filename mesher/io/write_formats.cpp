@@ -4,6 +4,16 @@
 #include <algorithm>
 
 namespace delmesher::io {
+namespace {
+
+void write_planar_within(TextSink& out, const TetMesh& mesh) {
+  if (mesh.planar_within == 0) return;
+  out.text("# PlanarWithin ");
+  out.number(mesh.planar_within);
+  out.text("\n");
+}
+
+}  // namespace
 
 void write_medit(TextSink& out, const NamedMesh& named) {
   const TetMesh& mesh = named.mesh;
@@ -40,6 +50,7 @@ void write_medit(TextSink& out, const NamedMesh& named) {
     out.integer(facet);
     out.text("\n");
   }
+  write_planar_within(out, mesh);
 }
 
 void write_tetgen(TextSink& node, TextSink& ele, TextSink& face, const TetMesh& mesh) {
@@ -50,6 +61,7 @@ void write_tetgen(TextSink& node, TextSink& ele, TextSink& face, const TetMesh& 
     node.point(mesh.vertices[i]);
     node.text("\n");
   }
+  write_planar_within(node, mesh);
   ele.integer(mesh.tetrahedra.size());
   ele.text(" 4 1\n");
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {

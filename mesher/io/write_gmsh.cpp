@@ -74,6 +74,10 @@ class GmshWriter {
     numbers_.nodes(3, groups_.region.empty() ? 1 : groups_.region.begin()->second, named_.nodes(),
                    [&](std::size_t i) { return named_.node(i); });
     numbers_.in_section("Elements", [&] { write_elements(); });
+    if (mesh_.planar_within == 0) return;
+    out_.text("$Comments\nPlanarWithin ");
+    out_.number(mesh_.planar_within);
+    out_.text("\n$EndComments\n");
   }
 
  private:

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "mesher/delmesher_files.h"
 #include "mesher/io/binary.h"
 #include "mesher/io/named_sets.h"
 #include "mesher/io/parse_surface.h"
@@ -94,6 +95,28 @@ TEST_F(WriteMesh, Medit) {
       text.ends_with("Triangles\n3\n1 3 2 7\n1 2 4 0\n2 3 4 -2\n"
                      "Tetrahedra\n2\n1 2 3 5 2\n1 2 3 4 1\n"
                      "End\n# TriangleFacets 3\n# 9\n# 4\n# 5\n"));
+}
+
+// In a comment, or a field, that readers pass over.
+TEST_F(WriteMesh, HowFarFacetsAreFromPlanar) {
+  TetMesh mesh = sample();
+  mesh.planar_within = 0.1;
+  const std::pair<const char*, const char*> formats[] = {
+      {"a.mesh", "# 5\n# PlanarWithin 0.1\n"},
+      {"a.msh", "$EndElements\n$Comments\nPlanarWithin 0.1\n$EndComments\n"},
+      {"a.node", "\n# PlanarWithin 0.1\n"},
+      {"a.vtu",
+       "<FieldData>\n<DataArray type=\"Float64\" Name=\"PlanarWithin\" NumberOfTuples=\"1\" "
+       "format=\"ascii\">\n0.1\n</DataArray>\n</FieldData>\n"}};
+  for (const auto& [name, said] : formats) {
+    OutputSet outputs;
+    ASSERT_TRUE(write_mesh(outputs, path(name), mesh, {}, kAscii).ok());
+    ASSERT_TRUE(outputs.commit().ok());
+    EXPECT_NE(content(path(name)).find(said), std::string::npos) << content(path(name));
+    const MeshReadResult again = read_mesh(path(name));
+    EXPECT_TRUE(again.ok()) << again.error;
+    EXPECT_EQ(again.mesh.tetrahedra.size(), 2U) << name;
+  }
 }
 
 TEST_F(WriteMesh, Gmsh) {

@@ -8,6 +8,7 @@
 
 #include "mesher/io/binary.h"
 #include "mesher/io/named_sets.h"
+#include "mesher/io/text.h"
 #include "mesher/io/write_formats.h"
 #include "mesher/io/write_plane_formats.h"
 
@@ -130,13 +131,19 @@ class CellArrays {
 };
 
 // For each name an array with its label and 2, the dimension of triangles, or its region and 3. So
-// meshio writes Gmsh's groups.
+// meshio writes Gmsh's groups. Then TetMesh::planar_within.
 std::string field_data(const NamedMesh& named) {
   std::string arrays;
   for (const GivenName& given : given_names(named)) {
     arrays += "<DataArray type=\"Int64\" Name=\"" + xml_escaped(given.name) +
               "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(given.number) + " " +
               std::to_string(given.dimension) + "\n</DataArray>\n";
+  }
+  if (named.mesh.planar_within != 0) {
+    arrays += "<DataArray type=\"Float64\" Name=\"PlanarWithin\" NumberOfTuples=\"1\" ";
+    arrays += "format=\"ascii\">\n";
+    append_double(arrays, named.mesh.planar_within);
+    arrays += "\n</DataArray>\n";
   }
   return arrays.empty() ? arrays : "<FieldData>\n" + arrays + "</FieldData>\n";
 }

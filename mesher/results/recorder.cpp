@@ -143,6 +143,8 @@ void Recorder::written(output::RoundingResult rounded) {
     record_points(session_.points, session_.surface.planarized_vertices(),
                   session_.input_vertices(), rounded, result_.exact);
   }
+  // A triangle may be as far on the other side of the plane of its facet as a vertex on this one.
+  if (session_.surface.is_planarized()) mesh.planar_within = 2 * s.planar_bound / session_.diagonal;
   const SurfaceTopology& topology = session_.surface.topology();
   for (std::uint32_t& facet : mesh.boundary_facets) {
     facet = topology.facet_triangles[facet][0];

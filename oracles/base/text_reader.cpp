@@ -354,6 +354,12 @@ double TextReader::number() {
   return negative ? -value : value;
 }
 
+void TextReader::positive_once(double& value) {
+  if (value != 0) fail("a number is there twice");
+  value = number();
+  if (!(value > 0)) fail("a number that is not positive");
+}
+
 float TextReader::single() {
   const double nearest = number();
   std::string_view text = text_.substr(kept_, at_ - kept_);  // of that number

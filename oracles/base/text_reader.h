@@ -89,7 +89,9 @@ class TextReader {
   }
 
   double number();  // decimal, the nearest double
-  float single();   // decimal, the nearest float
+  // A positive number, where the one that is there so far is 0.
+  void positive_once(double& value);
+  float single();  // decimal, the nearest float
   // Hexadecimal, finite, and with no more digits than a double holds.
   double exact_number();
   std::int64_t integer();

@@ -36,7 +36,12 @@ class GmshReader {
       }
       const std::string end = "$End" + section.substr(1);
       if (!read_section(section)) {
-        while (reader_.required_word(end.c_str()) != end) continue;
+        for (std::string word; word != end;) {
+          word = reader_.required_word(end.c_str());
+          if (section == "$Comments" && word == "PlanarWithin") {
+            reader_.positive_once(text_.planar_within);
+          }
+        }
         continue;
       }
       if (!seen_.insert(section).second) reader_.fail(section + " is there twice");

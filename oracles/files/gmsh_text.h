@@ -31,6 +31,7 @@ struct GmshText {
   std::vector<Position> nodes;
   // Names of physical groups, by dimension and tag; without quotation marks.
   std::map<std::pair<int, std::int64_t>, std::string> names;
+  double planar_within = 0;  // the number of "PlanarWithin X" in $Comments
   // The box of some surface or volume is not the smallest one of its elements' corners. Delmesher
   // writes no such file of a mesh in space.
   bool boxes_differ = false;

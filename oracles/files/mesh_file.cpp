@@ -146,13 +146,15 @@ class MeditReader {
   }
 
   // After the end nothing but comments; among them those of delmesher: "# TriangleFacets N", then
-  // "# id" for every triangle.
+  // "# id" for every triangle, and "# PlanarWithin X".
   void read_comments() {
     reader_.without_comments();
     bool found = false;
     while (!reader_.at_end()) {
       if (!reader_.word().starts_with('#')) reader_.fail("something follows the end");
-      if (reader_.word_in_line() != "TriangleFacets") {
+      const std::string keyword(reader_.word_in_line());
+      if (keyword == "PlanarWithin") reader_.positive_once(mesh_.planar_within);
+      if (keyword != "TriangleFacets") {
         reader_.skip_line();
         continue;
       }
@@ -254,6 +256,7 @@ MeshFile read_gmsh(const std::string& path) {
     }
   });
   mesh.vertices = std::move(text.nodes);
+  mesh.planar_within = text.planar_within;
   mesh.boxes_differ = text.boxes_differ;
   take_out_edge_nodes(mesh, nodes, path);
   const auto called = [&](std::int64_t group, std::string_view name) {
@@ -335,6 +338,7 @@ class VtuReader {
     facets_ = text_.array("CellData", "facet");
     mesh_.has_names = true;
     mesh_.names = text_.names();
+    mesh_.planar_within = text_.planar_within();
     for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::int64_t end = text_.integer(offsets[cell]);
       read_cell(cell, end - static_cast<std::int64_t>(start_));
@@ -426,7 +430,7 @@ void expect_number(TextReader& reader, std::int64_t wanted) {
 }
 
 // The first number of a vertex.
-std::int64_t read_tetgen_nodes(const std::string& path, std::vector<Position>& vertices) {
+std::int64_t read_tetgen_nodes(const std::string& path, MeshFile& mesh) {
   TextReader reader = TextReader::of_file(path);
   const std::uint64_t count = reader.count();
   if (integer_in_line(reader, path) != 3) reader.fail("vertices are not in space");
@@ -441,11 +445,16 @@ std::int64_t read_tetgen_nodes(const std::string& path, std::vector<Position>& v
     } else {
       expect_number(reader, first + static_cast<std::int64_t>(i));
     }
-    vertices.push_back(read_position(reader));
+    mesh.vertices.push_back(read_position(reader));
     skip_numbers(reader, path, attributes + markers);
     reader.expect_line_end();
   }
-  reader.expect_nothing();
+  reader.without_comments();
+  while (!reader.at_end()) {
+    if (!reader.word().starts_with('#')) reader.fail("something follows the last vertex");
+    if (reader.word_in_line() == "PlanarWithin") reader.positive_once(mesh.planar_within);
+    reader.skip_line();
+  }
   return first;
 }
 
@@ -565,7 +574,7 @@ MeshFile read_tetgen(const std::string& stem) {
   MeshFile mesh;
   mesh.either_orientation = true;
   mesh.has_second_order = false;
-  const std::int64_t first = read_tetgen_nodes(maybe_with_gz(stem + ".node"), mesh.vertices);
+  const std::int64_t first = read_tetgen_nodes(maybe_with_gz(stem + ".node"), mesh);
   NodesOnEdges nodes;
   read_tetgen_elements(maybe_with_gz(stem + ".ele"), first, mesh, nodes.of_tetrahedra);
   const std::string faces = maybe_with_gz(stem + ".face");

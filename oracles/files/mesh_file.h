@@ -31,7 +31,10 @@ struct MeshFile {
   std::vector<Face> boundary;        // triangles listed in the file
   std::vector<std::int32_t> labels;  // per triangle; empty if the file says nothing
   std::vector<Index> facets;         // per triangle, the facet that it tiles; or empty
-  bool has_names = false;            // the format has names of labels and regions
+  // The surface deviates by no more between the vertices and edges of the input's facets, as a
+  // fraction of the diagonal, as the file says ("PlanarWithin"); 0: it says nothing.
+  double planar_within = 0;
+  bool has_names = false;  // the format has names of labels and regions
   SetNames names = {};
   // A label that could be the number of its group is the name of a group of another number, so that
   // readers differ in what it is. Delmesher writes no such file.

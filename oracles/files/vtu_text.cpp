@@ -340,25 +340,42 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
 }
 
 // Names are field arrays of two integers, a number and a dimension; other arrays name nothing.
-SetNames VtuText::names() const {
-  SetNames names;
+std::vector<const XmlElement*> VtuText::field_arrays() const {
+  std::vector<const XmlElement*> arrays;
   for (const XmlElement* holder : {grid_, piece_}) {
     for (const XmlElement* field : holder->all("FieldData")) {
-      for (const XmlElement* array : field->all("DataArray")) {
-        const std::string type = array->value("type");
-        if (array->value("NumberOfTuples") != "2" ||
-            (!type.starts_with("Int") && !type.starts_with("UInt"))) {
-          continue;
-        }
-        const std::vector<double> told = values(*array);
-        if (told.size() != 2 || (told[1] != 2 && told[1] != 3)) continue;
-        if (!(std::fabs(told[0]) < 0x1p53)) continue;
-        std::string& name = names[{static_cast<int>(told[1]), integer(told[0])}];
-        name += (name.empty() ? "" : " and ") + array->value("Name");
-      }
+      for (const XmlElement* array : field->all("DataArray")) arrays.push_back(array);
     }
   }
+  return arrays;
+}
+
+SetNames VtuText::names() const {
+  SetNames names;
+  for (const XmlElement* array : field_arrays()) {
+    const std::string type = array->value("type");
+    if (array->value("NumberOfTuples") != "2" ||
+        (!type.starts_with("Int") && !type.starts_with("UInt"))) {
+      continue;
+    }
+    const std::vector<double> told = values(*array);
+    if (told.size() != 2 || (told[1] != 2 && told[1] != 3)) continue;
+    if (!(std::fabs(told[0]) < 0x1p53)) continue;
+    std::string& name = names[{static_cast<int>(told[1]), integer(told[0])}];
+    name += (name.empty() ? "" : " and ") + array->value("Name");
+  }
   return names;
+}
+
+double VtuText::planar_within() const {
+  double result = 0;
+  for (const XmlElement* array : field_arrays()) {
+    if (array->value("Name") != "PlanarWithin") continue;
+    const std::vector<double> told = values(*array);
+    if (told.size() != 1 || !(told[0] > 0)) fail("PlanarWithin is not a positive number");
+    if (std::exchange(result, told[0]) != 0) fail("PlanarWithin is there twice");
+  }
+  return result;
 }
 
 std::vector<double> VtuText::required_array(const std::string& section,

@@ -30,12 +30,15 @@ class VtuText {
   std::vector<double> required_array(const std::string& section, const std::string& name) const;
   // Field arrays of two integers, a number and a dimension, by their names.
   SetNames names() const;
+  // The number of the field array "PlanarWithin", 0 if there is none.
+  double planar_within() const;
   // An integer of at most 53 bits, and of 32.
   std::int64_t integer(double value) const;
   std::int32_t integer32(double value) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
+  std::vector<const XmlElement*> field_arrays() const;
   void take_appended(std::string_view text);
   void check(const XmlElement& element);
   // The element of that name; there must be one, and one at most.

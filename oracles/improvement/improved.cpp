@@ -61,7 +61,7 @@ class Improved {
     if (mesh_.lists_boundary && !(given_.boundary.empty() && mesh_.boundary.empty())) check_list();
     check_nodes();
     if (options_.promised.max_vertices > 0) {
-      add(check_written_vertices(options_.promised, mesh_.vertices.size()));
+      add(check_written(options_.promised, mesh_.vertices.size()));
     }
     check_angles();
     return {};

@@ -471,14 +471,13 @@ class PromiseCheck {
   }
 
   // A vertex may be half as far from the plane of a facet as the surface may deviate. Where that
-  // may not, the refined mesh alone may be one of a surface with planar facets, within the default,
-  // if it is not what is written.
+  // may not, the refined mesh alone may be one of a surface with planar facets, within what `auto`
+  // may state, if it is not what is written.
   void check_planar() {
     constexpr double kSlack = 1e-9;
     const bool refined_alone = promise_.task == Task::mesh && promise_.planar == 0 &&
                                promise_.improve && !promise_.approximate;
-    const double promised =
-        (refined_alone ? promise_.automatic_planar : promise_.planar_share()) / 2;
+    const double promised = (refined_alone ? Promise::kMostAutomatic : promise_.most_planar()) / 2;
     const double recorded = diagonal_ > 0 ? record_.parameters.planar / diagonal_ : 0;
     demand(recorded >= 0 && recorded <= promised * (1 + kSlack),
            "the record has facets that are planar within " + number(recorded) +
@@ -498,8 +497,13 @@ class PromiseCheck {
 
 }  // namespace
 
+double Promise::most_planar() const {
+  return planar == kPlanarAuto ? kMostAutomatic : planar;
+}
+
 double Promise::planar_share() const {
-  return planar == kPlanarAuto ? automatic_planar : planar;
+  const double unless_stated = planar == kPlanarAuto ? kAutomatic : planar;
+  return std::min(most_planar(), stated_planar.value_or(unless_stated));
 }
 
 double Promise::guaranteed_delta() const {
@@ -584,13 +588,18 @@ OracleReport check_promise(const Promise& promise, const ExactRecord& record, un
   return PromiseCheck(promise, record, diagonal).run(version);
 }
 
-OracleReport check_written_vertices(const Promise& promise, std::size_t written) {
+OracleReport check_written(const Promise& promise, std::size_t vertices, double planar_within) {
+  constexpr double kSlack = 1e-9;
   OracleReport report("promise", "promises");
   report.checked = 1;
-  const auto vertices = static_cast<double>(written);
-  if (vertices > promise.max_vertices) {
-    report.fail("the file has " + number(vertices) + " vertices, promised were at most " +
+  const auto written = static_cast<double>(vertices);
+  if (promise.max_vertices > 0 && written > promise.max_vertices) {
+    report.fail("the file has " + number(written) + " vertices, promised were at most " +
                 number(promise.max_vertices));
+  }
+  if (planar_within > promise.most_planar() * (1 + kSlack)) {
+    report.fail("the file says that facets are planar within " + number(planar_within) +
+                " of the diagonal, promised were at most " + number(promise.most_planar()));
   }
   return report;
 }

@@ -19,13 +19,15 @@ enum class Task : std::uint8_t { mesh, cdt, plane, improve };
 // Options of delmesher as docs/options.md documents them, with its defaults.
 struct Promise {
   static constexpr double kPlanarAuto = -1;
+  // docs/planar.md: what `auto` is without evidence in the input, and the most that it is with any.
+  static constexpr double kAutomatic = 0x1p-18, kMostAutomatic = 0x1p-12;
 
   Task task = Task::mesh;
   double delta = 14.47;         // degrees
   double tau = 1e-4;            // fraction of the diagonal of the bounding box
   double planar = kPlanarAuto;  // the same
-  // What kPlanarAuto may be, for this input: input_digits.h says. The verification sets it.
-  double automatic_planar = 0x1p-18;
+  // What the record or the file says of itself, if it does. The verification sets it.
+  std::optional<double> stated_planar = {};
   double acute = 60;   // degrees
   double corner = 20;  // degrees, as given
   bool gabriel = false;
@@ -53,8 +55,11 @@ struct Promise {
   double max_vertices = 0;  // 0: no limit
 
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
-  // fraction of the diagonal.
+  // fraction of the diagonal: as stated, within what was asked for. If nothing is stated, `auto` is
+  // kAutomatic.
   double planar_share() const;
+  // The most that --planar allows a run to state; slabs up to it are measured if nothing is stated.
+  double most_planar() const;
   // The angle that is guaranteed, in degrees: of faces, or of triangles of the plane. A larger
   // delta asks for a radius-edge ratio below 2 (in the plane: root 2), where the bound is best
   // effort.
@@ -84,8 +89,9 @@ Promise promise_of(const delmesher::PlaneOptions& options);
 OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
                            unsigned version, double diagonal);
 
-// The same for a file without a record: at most --max-vertices vertices.
-OracleReport check_written_vertices(const Promise& promise, std::size_t written);
+// The same for a file without a record: at most --max-vertices vertices, and the deviation between
+// facets that it states (MeshFile::planar_within).
+OracleReport check_written(const Promise& promise, std::size_t vertices, double planar_within = 0);
 
 // The version of the sidecar that has all sections the oracles ask for.
 inline constexpr unsigned kRecordVersion = 6;

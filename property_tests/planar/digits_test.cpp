@@ -1,17 +1,13 @@
-// The digits of coordinates, as the mesher and the oracles count them on their own: what `auto` may
-// do is never more than what it is held to.
+// What `--planar auto` states by the digits and the noise of coordinates is at most what the
+// oracles allow, and is kept.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <random>
 
 #include "mesher/base/control.h"
 #include "mesher/planar/flatness.h"
-#include "mesher/planar/resolution.h"
-#include "oracles/surface/input_digits.h"
 #include "property_tests/planar/runs.h"
 
 namespace tetproof::planar {
@@ -19,42 +15,6 @@ namespace {
 
 using namespace oracles;  // NOLINT
 using delmesher::Surface;
-
-// Numbers of a few digits, of a few places, of single precision, with a few that are special.
-class Numbers {
- public:
-  explicit Numbers(std::mt19937& random) : random_(random) {
-    size_ = std::pow(10, below(9) - 4.0) * (below(2) == 0 ? 1 : 1 + 9 * share());
-    offset_ = below(3) == 0 ? size_ * std::pow(10, below(5)) * share() : 0;
-    digits_ = below(8);
-    way_ = below(3);
-    single_ = below(3) == 0;
-  }
-
-  double next() {
-    const int special = below(40);
-    if (special == 0) return below(2) == 0 ? 0.0 : -0.0;
-    if (special == 1 && below(20) == 0) return below(2) == 0 ? 0x1p-1074 : 1e-42;
-    double x = offset_ + (special < 6 ? 1 : 2 * share() - 1) * size_;
-    char text[64];
-    if (way_ == 0) std::snprintf(text, sizeof text, "%.*g", digits_ + 1, x);
-    if (way_ == 1) {
-      const int places = digits_ - 1 - static_cast<int>(std::floor(std::log10(size_)));
-      std::snprintf(text, sizeof text, "%.*f", std::max(places, 0), x);
-    }
-    if (way_ == 2) std::snprintf(text, sizeof text, "%.17g", x);
-    return single_ ? static_cast<double>(std::strtof(text, nullptr)) : std::strtod(text, nullptr);
-  }
-
- private:
-  int below(unsigned n) { return static_cast<int>(random_() % n); }
-  double share() { return static_cast<double>(random_()) * 0x1p-32; }
-
-  std::mt19937& random_;
-  double size_, offset_;
-  int digits_, way_;
-  bool single_;
-};
 
 double diagonal_of(const Surface& surface) {
   Position low = surface.vertices[0], high = low;
@@ -65,27 +25,6 @@ double diagonal_of(const Surface& surface) {
     }
   }
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
-
-TEST(Digits, LetTheMesherDeviateByNoMoreThanTheOracles) {
-  constexpr double kAlways = 0x1p-18, kMostRounded = 0x1p-14 / 1.5;  // flatness.h
-  std::mt19937 random(18);
-  int more = 0;
-  for (int n = samples::iterations(20000); n > 0; --n) {
-    Numbers numbers(random);
-    Surface s;
-    for (std::size_t v = 4 + random() % 6; v > 0; --v) {
-      s.vertices.push_back({numbers.next(), numbers.next(), numbers.next()});
-    }
-    const double diagonal = diagonal_of(s);
-    if (!(diagonal > 0)) continue;
-    const double rounding = delmesher::planar::rounding_of_coordinates(s, kMostRounded * diagonal);
-    const double mine = std::max(6 * rounding / diagonal, kAlways);
-    const double theirs = automatic_planar_share(s.vertices);
-    more += mine > kAlways ? 1 : 0;
-    ASSERT_NEAR(mine, theirs, 1e-9 * theirs) << n;
-  }
-  EXPECT_GT(more, 1000);
 }
 
 // Rounded first, scaled by a power of two then: the mesher works in units in which it sees the
@@ -114,7 +53,7 @@ Surface beside(Surface s, const Surface& other, double shift) {
   return s;
 }
 
-// What a part says of its noise when it was rounded twice, each says on its own.
+// Parts that were rounded twice.
 TEST(EdgeNoise, LetsTheMesherDeviateByNoMoreThanTheOracles) {
   std::mt19937 random(19);
   const auto share = [&] { return static_cast<double>(random()) * 0x1p-32; };
@@ -133,9 +72,8 @@ TEST(EdgeNoise, LetsTheMesherDeviateByNoMoreThanTheOracles) {
     delmesher::Limits limits;
     delmesher::base::Control control{limits};
     const double mine = 4 * delmesher::planar::flatness(s, control) / diagonal_of(s);
-    const double theirs = automatic_planar_share(samples::to_polyhedron(s));
-    more += mine > 1.01 * automatic_planar_share(s.vertices) ? 1 : 0;
-    ASSERT_LE(mine, theirs * (1 + 1e-9)) << n;
+    more += mine > 1.01 * Promise::kAutomatic ? 1 : 0;
+    ASSERT_LE(mine, Promise::kMostAutomatic * (1 + 1e-9)) << n;
   }
   // The noise of some is as small as what is flat for all, and some have few edges.
   EXPECT_GT(more, samples::iterations(300) / 10);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -135,6 +136,91 @@ TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
   })) << to_text(report);
 }
 
+// A plate of the width 2 and the length 4 whose top has a ridge along the middle.
+Surface ridge(double height) {
+  Surface s;
+  for (const double y : {0.0, 4.0}) {
+    for (const auto& [x, z] :
+         {std::pair(-1.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1 + height}, {-1.0, 1.0}}) {
+      s.vertices.push_back({x, y, z});
+    }
+  }
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const std::uint32_t j = (i + 1) % 5;
+    s.triangles.push_back({i, j + 5, j});
+    s.triangles.push_back({i, i + 5, j + 5});
+  }
+  for (std::uint32_t i = 1; i < 4; ++i) {
+    s.triangles.push_back({0, i, i + 1});
+    s.triangles.push_back({5, i + 6, i + 5});
+  }
+  return s;
+}
+
+// Rounded to few decimals after it was rotated, so that `auto` needs more than without evidence.
+const Told& noisy() {
+  static const Told told =
+      run_of(rotated(stairs(), [](double x) { return std::round(x * 3e4) / 3e4; }));
+  return told;
+}
+
+// As the file states its number, it is judged by that; stated too small, the facets deviate by
+// more.
+TEST(PlanarFile, FacetsDeviateByNoMoreThanTheFileStates) {
+  Told told = noisy();
+  const double stated = told.sample.mesh.planar_within;
+  ASSERT_GT(stated, 4 * Promise::kAutomatic);
+  const VerifyReport good = verdict_on(told, false);
+  EXPECT_EQ(good.verdict, Verdict::deviating);
+  EXPECT_FALSE(failed(good, {.promised = told.promise})) << to_text(good);
+  ASSERT_NE(good.find("conformity")->figure("slab over diagonal"), std::nullopt);
+  const double slab = *good.find("conformity")->figure("slab over diagonal");
+  EXPECT_GT(slab, Promise::kAutomatic);
+  EXPECT_LE(slab, stated);
+  told.sample.mesh.planar_within = slab * (1 - 1e-6);
+  const VerifyReport report = verdict_on(told, false);
+  EXPECT_FALSE(report.find("conformity")->passed()) << to_text(report);
+}
+
+TEST(PlanarFile, AFileStatesNoMoreThanAutoMay) {
+  Told told = noisy();
+  told.sample.mesh.planar_within = 1.01 * Promise::kMostAutomatic;
+  const VerifyReport above = verdict_on(told, false);
+  EXPECT_FALSE(above.find("promise")->passed()) << to_text(above);
+  told.sample.mesh.planar_within = Promise::kMostAutomatic;
+  const VerifyReport most = verdict_on(told, false);
+  EXPECT_FALSE(failed(most, {.promised = told.promise})) << to_text(most);
+  told.promise.planar = noisy().sample.mesh.planar_within;
+  EXPECT_FALSE(verdict_on(told, false).find("promise")->passed());
+}
+
+// If nothing states the number, the slab is measured all the same. It fails above what `auto` does
+// without evidence, unless the caller allows it.
+TEST(PlanarFile, TheSlabIsMeasuredWhereNothingStatesIt) {
+  Told told = noisy();
+  const VerifyReport stated = verdict_on(told, false);
+  told.sample.mesh.planar_within = 0;
+  const VerifyReport report = verdict_on(told, false);
+  EXPECT_EQ(report.verdict, Verdict::deviating);
+  EXPECT_EQ(report.slab, stated.slab);
+  EXPECT_TRUE(failed(report, {.promised = told.promise})) << to_text(report);
+  EXPECT_FALSE(failed(report, {.promised = told.promise, .declared_deviation = 1e-4}));
+  told.promise.planar = 1e-4;
+  const VerifyReport promised = verdict_on(told, false);
+  EXPECT_FALSE(failed(promised, {.promised = told.promise})) << to_text(promised);
+}
+
+// Not without an end.
+TEST(PlanarFile, NoSlabIsWiderThanTheMostThatAutoMayState) {
+  Told told = run_of(ridge(1e-2), 1e-2);
+  ASSERT_GT(told.statistics.planar_groups, 0U);
+  EXPECT_FALSE(failed(verdict_on(told, false), {.promised = told.promise}));
+  told.promise.planar = Promise::kPlanarAuto;
+  told.sample.mesh.planar_within = 0;
+  const VerifyReport report = verdict_on(told, false);
+  EXPECT_EQ(report.verdict, Verdict::broken) << to_text(report);
+}
+
 // Far from the origin, where roundings are larger than any share of the size that other tolerances
 // begin with: a face is bent, and a vertex on an edge of another one is `ulps` off.
 VerifyReport report_on_rounded_edge(double ulps) {
@@ -237,27 +323,6 @@ TEST(PlanarFile, NeedlesBesideNeedlesAreInThePlaneOfEitherSide) {
     // Each is no wider than the bound, all together are.
     EXPECT_TRUE(failed(report_on_fan(needles, 0x1p-8), options)) << needles << " needles";
   }
-}
-
-// A plate of the width 2 and the length 4 whose top has a ridge along the middle.
-Surface ridge(double height) {
-  Surface s;
-  for (const double y : {0.0, 4.0}) {
-    for (const auto& [x, z] :
-         {std::pair(-1.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1 + height}, {-1.0, 1.0}}) {
-      s.vertices.push_back({x, y, z});
-    }
-  }
-  for (std::uint32_t i = 0; i < 5; ++i) {
-    const std::uint32_t j = (i + 1) % 5;
-    s.triangles.push_back({i, j + 5, j});
-    s.triangles.push_back({i, i + 5, j + 5});
-  }
-  for (std::uint32_t i = 1; i < 4; ++i) {
-    s.triangles.push_back({0, i, i + 1});
-    s.triangles.push_back({5, i + 6, i + 5});
-  }
-  return s;
 }
 
 // A ridge that the mesh does not have, in a file without record: the promise decides.

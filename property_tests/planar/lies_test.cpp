@@ -243,6 +243,14 @@ const Lie kLies[] = {
      }},
     {"a bound a thousand times as large", "promise",
      [](Told& t) { t.record.parameters.planar *= 1000; }},
+    {"a bound just above the most that auto may state", "promise",
+     [](Told& t) {
+       t.record.parameters.planar =
+           1.001 * Promise::kMostAutomatic / 2 * t.statistics.bbox_diagonal;
+     },
+     "allowed more where coordinates have few digits"},
+    {"a bound in the file smaller than what was done", "conformity",
+     [](Told& t) { t.sample.mesh.planar_within *= 0x1p-20; }, "the file said nothing"},
     {"no bound for the planes", "promise", [](Told& t) { t.record.parameters.planar = 0; }},
     {"an infinite bound", "sidecar", [](Told& t) { t.record.parameters.planar = HUGE_VAL; }},
     {"a bound that is not a number", "sidecar",

@@ -185,6 +185,8 @@ class Mesh:
         The label of the input, and the facet that the triangle is a part of.
     names, region_names : dict of int to str
         What labels, and regions, are called in files.
+    planar_within : float
+        How far the boundary may be from the surface as given between the vertices and edges of that, as a fraction of the diagonal.
     stats : dict
         Sizes, angles in degrees, shapes and seconds.
     warnings : list of str
@@ -200,6 +202,7 @@ class Mesh:
     stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
     region_names: Dict[int, str] = dataclasses.field(default_factory=dict)
+    planar_within: float = 0
 
     def __repr__(self) -> str:
         refined = self.stats.get("final", {})
@@ -716,7 +719,8 @@ def _fields(mesh: Mesh) -> Dict[str, Array]:
             "inside": np.ascontiguousarray(np.broadcast_to(mesh.inside, (count,)), np.uint8),
             "regions": np.ascontiguousarray(mesh.regions, np.int32),
             "boundary": np.reshape(_indices(mesh.boundary, "boundary"), (triangles, 3)),
-            "labels": np.ascontiguousarray(mesh.labels, np.int32), "facets": _indices(mesh.facets, "facets")}
+            "labels": np.ascontiguousarray(mesh.labels, np.int32), "facets": _indices(mesh.facets, "facets"),
+            "planar_within": float(getattr(mesh, "planar_within", 0))}
 
 
 def _called(names: Mapping[int, str]) -> Dict[int, str]:
