@@ -1,4 +1,4 @@
-// Brings the edges of a surface as given back into a mesh of its stand-in (planar_groups.h), where
+// Brings the edges of a surface as given back into a mesh of the planarized surface, where
 // they are diagonals of planar facets: each becomes a chain of edges.
 //
 // A facet's edge in the way of a diagonal is removed, where what replaces the tetrahedra around it
