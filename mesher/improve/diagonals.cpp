@@ -80,6 +80,7 @@ class Entry {
         control_(control),
         edges_(state),
         smoothing_(state),
+        move_(state),
         corners_(as_given),
         stays_(as_given.edge_count(), 0),
         cavity_(state.mesh) {}
@@ -260,19 +261,20 @@ class Entry {
   bool snap(VertexId v) {
     constexpr double kTolerance = 0x1p-10;  // of the shortest edge
     if (state_.mobility(v) != Mobility::in_plane) return false;
-    state_.mesh.star(v, star_);
+    move_.begin(v);
     const Place place =
-        state_.place_on_edge(diagonal_.end, state_.position(v), shortest_edge(v) * kTolerance);
-    if (!fits(v, place) || becomes_too_long(v, place)) {
+        state_.place_on_edge(diagonal_.end, state_.position(v), move_.shortest_edge() * kTolerance);
+    if (!move_.fits(place) || becomes_too_long(place)) {
       state_.forget(place);
       return false;
     }
-    state_.move_to_edge(v, place, star_);
+    state_.move_to_edge(v, place, move_.star());
     return true;
   }
-  // An edge at v, whose star is there.
-  bool becomes_too_long(VertexId v, const Place& place) const {
-    return std::ranges::any_of(star_, [&](TetId t) {
+  // An edge at the vertex that moves.
+  bool becomes_too_long(const Place& place) const {
+    const VertexId v = move_.vertex();
+    return std::ranges::any_of(move_.star(), [&](TetId t) {
       return std::ranges::any_of(state_.mesh.tet(t), [&](VertexId w) {
         const Vec3& end = state_.position(w);
         return w != v && state_.too_long(place.position, end) &&
@@ -280,33 +282,6 @@ class Entry {
       });
     });
   }
-  // At v, whose star is there.
-  double shortest_edge(VertexId v) const {
-    double shortest = HUGE_VAL;
-    for (const TetId t : star_) {
-      for (const VertexId w : state_.mesh.tet(t)) {
-        if (w == v) continue;
-        shortest = std::min(shortest, distance(state_.position(v), state_.position(w)));
-      }
-    }
-    return shortest;
-  }
-  FacetId facet_at(VertexId v) const {
-    for (const TetId t : star_) {
-      for (int k = 0; k < 4; ++k) {
-        if (state_.mesh.tet(t)[k] != v && state_.mesh.facet(t, k) != kNone) {
-          return state_.mesh.facet(t, k);
-        }
-      }
-    }
-    return kNone;
-  }
-  bool fits(VertexId v, const Place& place) {
-    return std::ranges::all_of(star_, [&](TetId t) {
-      return state_.is_positive_with(state_.mesh.tet(t), state_.mesh.index_of(t, v), place);
-    });
-  }
-
   // Splits the edge in the middle, or the next one behind it that can be split, then those before
   // it.
   bool split_one() {
@@ -416,16 +391,16 @@ class Entry {
 
   bool anchor(VertexId v, FacetLocator& locator) {
     constexpr double kTolerance = 0x1p-30;  // of the shortest edge
-    state_.mesh.star(v, star_);
-    const FacetId facet = facet_at(v);
+    move_.begin(v);
+    const FacetId facet = state_.facet(v);
     const Vec3 place = state_.points().nearest(state_.point(v));
     const std::uint32_t triangle = locator.triangle_at(facet, place);
     const FacetId wanted = as_given_.facet_of[triangle];
     if (corners_.have(state_.points().definition(state_.point(v)), wanted)) return true;
-    const Place anew =
-        state_.place_in_triangle(v, as_given_.triangles[triangle], shortest_edge(v) * kTolerance);
-    if (fits(v, anew)) {
-      state_.move(v, anew, star_);
+    const Place anew = state_.place_in_triangle(v, as_given_.triangles[triangle],
+                                                move_.shortest_edge() * kTolerance);
+    if (move_.fits(anew)) {
+      state_.move(v, anew, move_.star());
       return true;
     }
     state_.forget(anew);
@@ -440,6 +415,7 @@ class Entry {
   Control& control_;
   EdgeRemoval edges_;
   Smoothing smoothing_;
+  MoveVertex move_;
   FacetCorners corners_;
   std::vector<std::uint8_t> stays_;  // per edge of the surface as given
   Diagonal diagonal_{};

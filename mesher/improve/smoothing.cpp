@@ -1,6 +1,7 @@
 #include "mesher/improve/smoothing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace delmesher::improve {
@@ -8,35 +9,21 @@ namespace delmesher::improve {
 // Collects the star; false if v cannot move.
 bool Smoothing::begin(VertexId v) {
   if (state_.mobility(v) == Mobility::fixed) return false;
-  v_ = v;
-  const MeshTopology& mesh = state_.mesh;
-  mesh.star(v, star_);
+  move_.begin(v);
   // The worst one first: it ends most attempts.
-  for (TetId& t : star_) {
-    if (state_.score(t) < state_.score(star_[0])) std::swap(t, star_[0]);
+  std::vector<TetId>& star = move_.star();
+  for (TetId& t : star) {
+    if (state_.score(t) < state_.score(star[0])) std::swap(t, star[0]);
   }
-  index_.clear();
   cone_.clear();
-  for (const TetId t : star_) {
-    const int i = mesh.index_of(t, v);
-    index_.push_back(i);
+  const MeshTopology& mesh = state_.mesh;
+  for (const TetId t : star) {
+    const int i = move_.corner(t);
     const auto at = [&](int k) -> const Vec3& { return state_.position(mesh.tet(t)[kFace[i][k]]); };
     cone_.add(at(0), at(1), at(2), state_.counts(t));
   }
   cone_.finish();
   return find_axis();
-}
-
-// The length of the shortest edge at v.
-double Smoothing::shortest() const {
-  double squared = HUGE_VAL;
-  for (const TetId t : star_) {
-    for (const VertexId w : state_.mesh.tet(t)) {
-      if (w == v_) continue;
-      squared = std::min(squared, squared_norm(subtract(state_.position(w), state_.position(v_))));
-    }
-  }
-  return std::sqrt(squared);
 }
 
 // Of the neighbours, each as often as it has tetrahedra of the star; on the surface, of those
@@ -49,12 +36,11 @@ void Smoothing::find_center() {
     center_ = geometry::add(center_, state_.position(w));
     ++neighbours;
   };
-  for (std::size_t n = 0; n < star_.size(); ++n) {
-    const TetId t = star_[n];
-    const int i = index_[n];
+  for (const TetId t : move_.star()) {
+    const int i = move_.corner(t);
     for (int k = 0; k < 4; ++k) {
       if (k == i) continue;
-      if (state_.mobility(v_) == Mobility::free) {
+      if (state_.mobility(move_.vertex()) == Mobility::free) {
         take(mesh.tet(t)[k]);
       } else if (mesh.facet(t, k) != kNone) {
         for (const int j : kFace[k]) {
@@ -69,16 +55,16 @@ void Smoothing::find_center() {
 // The normal of the facet that v is in, or the direction of the edge that it is on.
 bool Smoothing::find_axis() {
   axis_ = {};
-  if (state_.mobility(v_) == Mobility::free) return true;
-  if (state_.mobility(v_) == Mobility::on_line) {
-    const PointDefinition d = state_.points().definition(state_.point(v_));
+  const VertexId v = move_.vertex();
+  if (state_.mobility(v) == Mobility::free) return true;
+  if (state_.mobility(v) == Mobility::on_line) {
+    const PointDefinition d = state_.points().definition(state_.point(v));
     axis_ = state_.points().difference(d.corner[0], d.corner[1]);
   } else {
-    for (std::size_t n = 0; n < star_.size(); ++n) {
-      const TetId t = star_[n];
+    for (const TetId t : move_.star()) {
       if (!state_.mesh.inside(t)) continue;
       for (int k = 0; k < 4; ++k) {
-        if (k == index_[n] || state_.mesh.facet(t, k) == kNone) continue;
+        if (k == move_.corner(t) || state_.mesh.facet(t, k) == kNone) continue;
         axis_ = geometry::add(axis_, state_.face_normal(t, k));
       }
     }
@@ -88,12 +74,12 @@ bool Smoothing::find_axis() {
 
 // The part of a displacement that keeps v where it belongs.
 Vec3 Smoothing::allowed(const Vec3& offset) const {
-  return allowed_offset(state_.mobility(v_), axis_, offset);
+  return allowed_offset(state_.mobility(move_.vertex()), axis_, offset);
 }
 
 // From x to the apex that would make a tetrahedron of the star nearly regular.
 Vec3 Smoothing::towards_best_apex(TetId t, const Vec3& x) const {
-  return subtract(state_.best_apex_below(t, state_.mesh.index_of(t, v_)), x);
+  return subtract(state_.best_apex_below(t, move_.corner(t)), x);
 }
 
 // The worst of the star with v at x; all 0 if it does not reach `least`.
@@ -101,7 +87,7 @@ Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
   if (!cone_.reaches(x, least)) return {};
   Quality worst = kNotCounted;
   float score = HUGE_VALF;
-  for (std::size_t n = 0; n < star_.size(); ++n) {
+  for (std::size_t n = 0; n < move_.star().size(); ++n) {
     const Quality q = cone_.quality(n);
     if (state_.score(q) < score) {
       worst_ = n;
@@ -112,46 +98,46 @@ Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
   return worst;
 }
 
+struct Smoothing::Judge {
+  using Value = Quality;
+  Smoothing& smoothing;
+  bool any = false;  // was there a better candidate?
+
+  bool value_at(const Vec3& x, const Quality& best, Quality& value) {
+    value = smoothing.worst_at(x, smoothing.state_.to_be_better(best));
+    any = any || value.dihedral > 0;
+    return value.dihedral > 0;
+  }
+  static bool is_enough(const Quality&) { return false; }
+  bool ends_with_failure() const { return any; }
+};
+
 bool Smoothing::improve_worst(VertexId v) {
   constexpr double kSteps[] = {0.5, 0.25, 0.125, 0.0625, 0.015625};
   if (!begin(v)) return false;
   find_center();
-  const Quality least = state_.to_be_better(state_.worst_of(star_));
-  Quality best = state_.worst_of(star_);
-  Vec3 x = state_.position(v);
-  bool any = false;
+  Quality best = state_.worst_of(move_.star());
+  const Quality least = state_.to_be_better(best);
+  const Vec3 from = state_.position(v);
+  Vec3 x = from;
   worst_ = 0;
   // Many small steps are for bad tetrahedra alone.
   const bool bad = state_.score(best) < State::kBad;
   const std::size_t steps = bad ? std::size(kSteps) : 3;
   const int rounds = bad ? 4 : 3;
   for (int round = 0; round < rounds; ++round) {
-    const std::size_t worst = worst_;
-    std::size_t best_worst = worst;
-    Vec3 best_x = x;
-    bool success = false;
-    for (const Vec3& direction :
-         {allowed(towards_best_apex(star_[worst], x)), allowed(subtract(center_, x))}) {
-      for (const double step : std::span(kSteps, steps)) {
-        const Vec3 candidate = add_scaled(x, step, direction);
-        const Quality q = worst_at(candidate, any || success ? state_.to_be_better(best) : least);
-        if (!(q.dihedral > 0)) {
-          if (success) break;
-          continue;
-        }
-        best = q;
-        best_x = candidate;
-        best_worst = worst_;
-        success = true;
-      }
+    const Vec3 here = x;
+    Judge judge{*this};
+    for (const Vec3& direction : {allowed(towards_best_apex(move_.star()[worst_], here)),
+                                  allowed(subtract(center_, here))}) {
+      std::array<Vec3, std::size(kSteps)> line;
+      for (std::size_t n = 0; n < steps; ++n) line[n] = add_scaled(here, kSteps[n], direction);
+      const Vec3* better = MoveVertex::find(std::span(line.data(), steps), judge, best);
+      if (better != nullptr) x = *better;
     }
-    worst_ = best_worst;
-    if (!success) break;
-    x = best_x;
-    any = true;
-    if (state_.good(best)) break;
+    if (!judge.any || state_.good(best)) break;
   }
-  return any && commit(v, subtract(x, state_.position(v)), least, 0);
+  return x != from && commit(v, subtract(x, from), least, 0);
 }
 
 // The sum of the gammas of the star with v at x; 0 if it does not reach `least`.
@@ -162,7 +148,7 @@ double Smoothing::roundness_at(const Vec3& x, const Quality& least) {
 // Of the cone as it was measured last.
 double Smoothing::sum_of_roundness() const {
   double sum = 0;
-  for (std::size_t n = 0; n < star_.size(); ++n) {
+  for (std::size_t n = 0; n < move_.star().size(); ++n) {
     if (cone_.counts(n)) sum += std::sqrt(cone_.quality(n).gamma);
   }
   return sum;
@@ -178,9 +164,9 @@ bool Smoothing::round_off(VertexId v) {
   if (!(squared_norm(direction) > kLeastStep * kLeastStep * cone_.average_squared_edge())) {
     return false;
   }
-  const Quality least = state_.to_be_acceptable(state_.worst_of(star_));
+  const Quality least = state_.to_be_acceptable(state_.worst_of(move_.star()));
   double before = 0;
-  for (const TetId t : star_) {
+  for (const TetId t : move_.star()) {
     if (state_.counts(t)) before += std::sqrt(state_.quality(t).gamma);
   }
   if (!(before > 0)) return false;
@@ -202,10 +188,11 @@ bool Smoothing::measure_at(const Vec3& x, const Quality& least) {
   constexpr float kFlat = 1e-8F;
   if (!cone_.reaches(x, least)) return false;
   quality_.clear();
-  for (std::size_t n = 0; n < star_.size(); ++n) {
+  for (std::size_t n = 0; n < move_.star().size(); ++n) {
     Quality q = cone_.quality(n);
     if (q.dihedral < kFlat || q.face < kFlat) {
-      q = state_.quality_with(state_.mesh.tet(star_[n]), index_[n], x, least);
+      q = state_.quality_with(state_.mesh.tet(move_.star()[n]), move_.corner(move_.star()[n]), x,
+                              least);
       if (!(q.dihedral > 0) || !State::reaches(q, least)) return false;
     }
     quality_.push_back(q);
@@ -216,7 +203,7 @@ bool Smoothing::measure_at(const Vec3& x, const Quality& least) {
 // Moves v by the offset, or to a place a little beside, if its star then reaches `least`, and its
 // roundness is above this.
 bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least, double roundness) {
-  const double tolerance = shortest() * State::kGrid;
+  const double tolerance = move_.shortest_edge() * State::kGrid;
   if (!(tolerance > 0)) return false;
   const Place place = state_.moved(v, offset, tolerance);
   return settle(v, place, measure_at(place.position, least) && sum_of_roundness() > roundness);
@@ -227,7 +214,7 @@ bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {
   for (int k = 0; k < 4; ++k) {
     const Vec3& end = state_.position(tet[k]);
     if (k == i || !state_.counts(t) || !state_.too_long(x, end)) continue;
-    const Vec3& before = state_.position(v_);
+    const Vec3& before = state_.position(move_.vertex());
     if (squared_norm(subtract(end, x)) > squared_norm(subtract(end, before)) ||
         !state_.too_long(before, end)) {  // shorter, but nearer to where sizes are smaller
       return true;
@@ -237,12 +224,13 @@ bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {
 }
 
 bool Smoothing::settle(VertexId v, const Place& place, bool ok) {
-  for (std::size_t n = 0; ok && n < star_.size(); ++n) {
-    ok = !becomes_too_long(star_[n], index_[n], place.position) &&
-         state_.is_positive_with(state_.mesh.tet(star_[n]), index_[n], place);
-  }
+  ok = ok &&
+       std::ranges::none_of(
+           move_.star(),
+           [&](TetId t) { return becomes_too_long(t, move_.corner(t), place.position); }) &&
+       move_.fits(place);
   if (ok) {
-    state_.move(v, place, star_, quality_);
+    state_.move(v, place, move_.star(), quality_);
   } else {
     state_.forget(place);
   }

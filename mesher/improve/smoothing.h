@@ -5,12 +5,13 @@
 
 #include "mesher/improve/cone.h"
 #include "mesher/improve/state.h"
+#include "mesher/tetmesh/move_vertex.h"
 
 namespace delmesher::improve {
 
 class Smoothing {
  public:
-  explicit Smoothing(State& state) : state_(state) {}
+  explicit Smoothing(State& state) : state_(state), move_(state) {}
 
   // Moves v to where the worst tetrahedron at it is better.
   bool improve_worst(VertexId v);
@@ -18,6 +19,8 @@ class Smoothing {
   bool round_off(VertexId v);
 
  private:
+  struct Judge;
+
   bool begin(VertexId v);
   void find_center();
   bool find_axis();
@@ -27,15 +30,12 @@ class Smoothing {
   double roundness_at(const Vec3& x, const Quality& least);
   bool measure_at(const Vec3& x, const Quality& least);
   double sum_of_roundness() const;
-  double shortest() const;
   bool commit(VertexId v, const Vec3& offset, const Quality& least, double roundness);
   bool becomes_too_long(TetId t, int i, const Vec3& x) const;
   bool settle(VertexId v, const Place& place, bool ok);
 
   State& state_;
-  VertexId v_ = 0;
-  std::vector<TetId> star_;
-  std::vector<int> index_;        // of v in each
+  MoveVertex move_;
   Cone cone_;                     // v and its star
   std::vector<Quality> quality_;  // of the star where v goes, by measure_at()
   std::size_t worst_ = 0;         // of the star at the place asked last

@@ -105,7 +105,7 @@ class Thinning {
     operation_.begin(v);
     const auto bad = static_cast<std::size_t>(std::ranges::count_if(
         operation_.star(), [&](TetId t) { return judge_.is_bad_as_written(topology_.tet(t)); }));
-    const VertexId target = operation_.find(mobility(v), {bad + 1, -HUGE_VAL}, judge_);
+    const VertexId target = operation_.find({bad + 1, -HUGE_VAL}, judge_);
     if (target == kNone) return false;
     topology_.contract(v, target, operation_.star());
     return true;
@@ -118,22 +118,6 @@ class Thinning {
   }
 
  private:
-  Mobility mobility(VertexId v) const {
-    FacetId only = kNone;
-    bool on_edge = false;
-    for (const TetId t : operation_.star()) {
-      for (int i = 0; i < 4; ++i) {
-        if (topology_.tet(t)[i] == v) continue;
-        const FacetId facet = topology_.facet(t, i);
-        if (facet == kNone && topology_.neighbor(t, i) == kNone) return Mobility::fixed;
-        on_edge = on_edge || (facet != kNone && only != kNone && facet != only);
-        if (facet != kNone) only = facet;
-      }
-    }
-    if (only == kNone) return Mobility::free;
-    return on_edge ? Mobility::on_line : Mobility::in_plane;
-  }
-
   std::size_t fixed_vertices_;
   const PointStore& points_;
   MeshTopology topology_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <tuple>
 #include <unordered_map>
 
 #include "mesher/geometry/vector.h"
@@ -16,7 +17,7 @@ constexpr int kChainBudget = 4000;
 constexpr std::int64_t kAllChainsBudget = 10'000'000;
 constexpr int kChainDepth = 3;
 // Most signs that untangling may decide.
-constexpr std::int64_t kUntangleBudget = 1'000'000;
+constexpr std::uint64_t kUntangleBudget = 1'000'000;
 // Most rounds of untangling that end with all vertices where they were after an earlier one. Each
 // makes something heavier, so it may be left after some; those that were left took 4.
 constexpr int kMostReturns = 50;
@@ -204,69 +205,84 @@ void VertexMoves::far_candidates(std::uint32_t v) {
   }
 }
 
-void VertexMoves::order_star(std::uint32_t v) {
-  const auto star = mesh_.star(v);
-  ordered_star_.assign(star.begin(), star.end());
-  std::stable_partition(ordered_star_.begin(), ordered_star_.end(),
-                        [&](std::uint32_t t) { return mesh_.sign(t) <= 0; });
-  star_badness_ = 0;
-  for (const std::uint32_t t : ordered_star_) star_badness_ += badness(mesh_.sign(t));
+void VertexMoves::find_candidates(VertexId v, Stage stage) {
+  stage == Stage::far ? far_candidates(v) : near_candidates(v, stage == Stage::wide);
 }
 
-// How the badness of the ordered star changes if v moves to p; stops counting at `limit`.
-Badness VertexMoves::change(std::uint32_t v, const Vec3& p, Badness limit) {
-  Badness sum = -star_badness_;
-  for (const std::uint32_t t : ordered_star_) {
-    sum += badness(mesh_.sign_at(t, v, p));
-    if (sum >= limit) return limit;
+// What the bad tetrahedra around v weigh, or else their badness; and what it is more with v
+// elsewhere. Places where other vertices are have no value.
+struct VertexMoves::Judge {
+  using Value = std::int64_t;
+
+  Judge(VertexMoves& of, VertexId vertex, bool by_weight)
+      : moves(of), v(vertex), weigh(by_weight), star(of.mesh_.star(vertex)) {
+    std::ranges::stable_partition(star, [&](TetId t) { return moves.mesh_.sign(t) <= 0; });
+    for (const TetId t : star) now += cost(t, moves.mesh_.sign(t));
   }
-  return sum;
-}
-
-bool VertexMoves::fix(std::uint32_t t) {
-  return improve(t, false) || improve(t, true);
-}
-
-// The first move that leaves nothing bad around the vertex, or the one that helps most.
-bool VertexMoves::improve(std::uint32_t t, bool far) {
-  Badness best = 0;
-  std::uint32_t best_vertex = kNone;
-  Vec3 best_position{};
-  const int stages = far ? 1 : 2;
-  for (int stage = 0; stage < stages; ++stage) {
-    for (const std::uint32_t v : movable(t)) {
-      order_star(v);
-      far ? far_candidates(v) : near_candidates(v, stage == 1);
-      for (const Vec3& p : candidates_) {
-        const Badness gain = change(v, p, best);
-        if (gain >= best || mesh_.occupied(p)) continue;
-        best = gain;
-        best_vertex = v;
-        best_position = p;
-        if (gain != -star_badness_) continue;
-        mesh_.move(v, p);
-        mesh_.note_move(v);
-        return true;
-      }
+  Value cost(TetId t, int sign) const {
+    if (!weigh) return badness(sign);
+    return sign <= 0 ? moves.weight(t) : 0;
+  }
+  bool value_at(const Vec3& p, Value best, Value& value) const {
+    value = -now;
+    for (const TetId t : star) {
+      value += cost(t, moves.mesh_.sign_at(t, v, p));
+      if (value >= best) return false;
     }
+    return !moves.mesh_.occupied(p);
   }
-  if (best_vertex == kNone) return false;
-  mesh_.move(best_vertex, best_position);
-  mesh_.note_move(best_vertex);
+  bool is_enough(Value value) const { return value <= -now; }
+  static bool ends_with_failure() { return false; }
+
+  VertexMoves& moves;
+  VertexId v;
+  bool weigh;
+  std::vector<TetId> star;  // bad ones first
+  Value now = 0;
+};
+
+// Remembers the best candidate, if it is better. Does it leave nothing bad?
+bool VertexMoves::find(Stage stage, const Judge& judge, Move& best) {
+  find_candidates(judge.v, stage);
+  const Vec3* p = MoveVertex::find(candidates_, judge, best.value);
+  if (p != nullptr) std::tie(best.vertex, best.position) = std::tie(judge.v, *p);
+  return p != nullptr && judge.is_enough(best.value);
+}
+
+bool VertexMoves::carry_out(const Move& move) {
+  if (move.vertex == kNone) return false;
+  positions_ += fingerprint(move.vertex, move.position) -
+                fingerprint(move.vertex, mesh_.position(move.vertex));
+  mesh_.move(move.vertex, move.position);
+  mesh_.note_move(move.vertex);
   return true;
 }
 
-bool VertexMoves::separate(std::uint32_t v) {
-  if (mesh_.fixed(v)) return false;
-  order_star(v);
-  for (int stage = 0; stage < 3; ++stage) {
-    stage == 2 ? far_candidates(v) : near_candidates(v, stage == 1);
-    for (const Vec3& p : candidates_) {
-      if (mesh_.occupied(p) || change(v, p, 1) > 0) continue;
-      mesh_.move(v, p);
-      mesh_.note_move(v);
-      return true;
+bool VertexMoves::fix(TetId t) {
+  return improve(t, {Stage::near, Stage::wide}) || improve(t, {Stage::far});
+}
+
+// The first move that leaves nothing bad around the vertex, or the one that helps most.
+bool VertexMoves::improve(TetId t, std::initializer_list<Stage> stages) {
+  Move best;
+  for (const Stage stage : stages) {
+    for (const VertexId v : movable(t)) {
+      if (find(stage, Judge(*this, v, false), best)) return carry_out(best);
     }
+  }
+  return carry_out(best);
+}
+
+bool VertexMoves::separate(VertexId v) {
+  if (mesh_.fixed(v)) return false;
+  const Judge judge(*this, v, false);
+  for (const Stage stage : kStages) {
+    find_candidates(v, stage);
+    const auto harmless = std::ranges::find_if(candidates_, [&](const Vec3& p) {
+      Badness value = 0;
+      return judge.value_at(p, 1, value);
+    });
+    if (harmless != candidates_.end()) return carry_out({0, v, *harmless});
   }
   return false;
 }
@@ -291,17 +307,17 @@ bool VertexMoves::free_by_chain(Chain& chain, std::uint32_t t, int depth) {
     const auto moved = [&](const auto& m) { return m.first == v; };
     if (std::any_of(chain.earlier.begin(), chain.earlier.end(), moved)) continue;
     const Vec3 here = mesh_.position(v);
-    for (int stage = 0; stage < 2; ++stage) {
-      near_candidates(v, stage == 1);
+    for (const bool wide : {false, true}) {
+      near_candidates(v, wide);
       const std::vector<Vec3> candidates = candidates_;
       for (const Vec3& p : candidates) {
         if (--chain.budget < 0) return false;
         if (mesh_.sign_at(t, v, p) <= 0) continue;
-        order_star(v);
-        const Badness limit = depth == 0 ? 0 : 2 * kOneBad;
-        if (change(v, p, limit) >= limit || mesh_.occupied(p)) continue;
+        const Judge judge(*this, v, false);
+        Badness value = 0;
+        if (!judge.value_at(p, depth == 0 ? 0 : 2 * kOneBad, value)) continue;
         std::vector<std::uint32_t> broken;
-        for (const std::uint32_t u : ordered_star_) {
+        for (const TetId u : judge.star) {
           if (mesh_.sign(u) > 0 && mesh_.sign_at(u, v, p) <= 0) broken.push_back(u);
         }
         if (depth == 0 && !broken.empty()) continue;
@@ -344,44 +360,13 @@ std::int64_t VertexMoves::weight(std::uint32_t t) const {
   return at == weight_.end() ? 1 : at->second;
 }
 
-// The candidate for which the bad tetrahedra around v weigh least, if that is less than `best`.
-bool VertexMoves::lighten_by(std::uint32_t v, std::int64_t& best, Vec3& best_position) {
-  order_star(v);
-  std::int64_t now = 0;
-  for (const std::uint32_t t : ordered_star_) now += mesh_.sign(t) <= 0 ? weight(t) : 0;
-  bool found = false;
-  for (int stage = 0; stage < 3; ++stage) {
-    stage == 2 ? far_candidates(v) : near_candidates(v, stage == 1);
-    for (const Vec3& p : candidates_) {
-      std::int64_t change = -now;
-      for (const std::uint32_t t : ordered_star_) {
-        --untangle_budget_;
-        change += mesh_.sign_at(t, v, p) <= 0 ? weight(t) : 0;
-        if (change >= best) break;
-      }
-      if (change >= best || mesh_.occupied(p)) continue;
-      best = change;
-      best_position = p;
-      found = true;
-    }
+bool VertexMoves::lighten(TetId t) {
+  Move best;
+  for (const VertexId v : movable(t)) {
+    const Judge judge(*this, v, true);
+    for (const Stage stage : kStages) find(stage, judge, best);
   }
-  return found;
-}
-
-bool VertexMoves::lighten(std::uint32_t t) {
-  --untangle_budget_;
-  std::int64_t best = 0;
-  std::uint32_t best_vertex = kNone;
-  Vec3 best_position{};
-  for (const std::uint32_t v : movable(t)) {
-    if (lighten_by(v, best, best_position)) best_vertex = v;
-  }
-  if (best_vertex == kNone) return false;
-  positions_ += fingerprint(best_vertex, best_position) -
-                fingerprint(best_vertex, mesh_.position(best_vertex));
-  mesh_.move(best_vertex, best_position);
-  mesh_.note_move(best_vertex);
-  return true;
+  return carry_out(best);
 }
 
 // The breakout method of constraint satisfaction (Morris, AAAI 1993): a tetrahedron that stays bad,
@@ -389,9 +374,9 @@ bool VertexMoves::lighten(std::uint32_t t) {
 // it for another bad one. Where it goes round between the same few places it will not.
 bool VertexMoves::untangle(Control& control) {
   weight_.clear();
-  untangle_budget_ = kUntangleBudget;
+  const std::uint64_t last = mesh_.signs() + kUntangleBudget;
   std::unordered_map<std::uint64_t, int> returns;
-  while (untangle_budget_ > 0 && returns[positions_]++ <= kMostReturns) {
+  while (mesh_.signs() < last && returns[positions_]++ <= kMostReturns) {
     std::vector<std::uint32_t> work(mesh_.bad().begin(), mesh_.bad().end());
     std::erase_if(work, [&](std::uint32_t t) { return movable(t).empty(); });
     if (work.empty()) break;

@@ -1,11 +1,14 @@
 // Repairs by moving vertices to other doubles.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <vector>
 
 #include "mesher/output/rounded_mesh.h"
+#include "mesher/tetmesh/move_vertex.h"
 
 namespace delmesher::output {
 
@@ -20,11 +23,11 @@ class VertexMoves {
   explicit VertexMoves(RoundedMesh& mesh);
 
   // Moves one vertex of the bad tetrahedron t to where the badness around it is less.
-  bool fix(std::uint32_t t);
+  bool fix(TetId t);
   // Moves several vertices: one frees t, the others repair the tetrahedra that this move inverted.
-  bool fix_by_chain(std::uint32_t t);
+  bool fix_by_chain(TetId t);
   // Moves v away from a vertex with the same coordinates, doing no harm.
-  bool separate(std::uint32_t v);
+  bool separate(VertexId v);
   // Moves many vertices, on the way also to where more is bad, until nothing is bad: for places
   // where one move can only exchange one bad tetrahedron for another. False, in any state, when the
   // budget ends.
@@ -32,30 +35,36 @@ class VertexMoves {
 
  private:
   struct Chain;
+  struct Judge;
+  // Candidates: doubles beside the vertex, at wider distances, and up to the middle of its star.
+  enum class Stage : std::uint8_t { near, wide, far };
+  static constexpr std::array kStages = {Stage::near, Stage::wide, Stage::far};
+  struct Move {
+    std::int64_t value = 0;  // what it changes; less is better
+    VertexId vertex = kNone;
+    Vec3 position{};
+  };
 
-  std::vector<std::uint32_t> movable(std::uint32_t t) const;
-  bool allowed(std::uint32_t v, const Vec3& p) const;
-  void near_candidates(std::uint32_t v, bool wide);
-  void far_candidates(std::uint32_t v);
-  void order_star(std::uint32_t v);
-  Badness change(std::uint32_t v, const Vec3& p, Badness limit);
-  bool improve(std::uint32_t t, bool far);
-  bool free_by_chain(Chain& chain, std::uint32_t t, int depth);
+  std::vector<VertexId> movable(TetId t) const;
+  bool allowed(VertexId v, const Vec3& p) const;
+  void near_candidates(VertexId v, bool wide);
+  void far_candidates(VertexId v);
+  void find_candidates(VertexId v, Stage stage);
+  bool find(Stage stage, const Judge& judge, Move& best);
+  bool carry_out(const Move& move);
+  bool improve(TetId t, std::initializer_list<Stage> stages);
+  bool free_by_chain(Chain& chain, TetId t, int depth);
   void undo(Chain& chain, std::size_t mark);
-  std::int64_t weight(std::uint32_t t) const;
-  bool lighten(std::uint32_t t);
-  bool lighten_by(std::uint32_t v, std::int64_t& best, Vec3& best_position);
+  std::int64_t weight(TetId t) const;
+  bool lighten(TetId t);
 
   RoundedMesh& mesh_;
-  double surface_unit_ = 0;                  // unit in the last place of the largest coordinate
-  std::vector<std::array<int, 3>> steps_;    // of a 5 x 5 x 5 grid, shortest first
-  std::vector<Vec3> candidates_;             // of the vertex under consideration
-  std::vector<std::uint32_t> ordered_star_;  // its star, bad ones first
-  Badness star_badness_ = 0;
+  double surface_unit_ = 0;                // unit in the last place of the largest coordinate
+  std::vector<std::array<int, 3>> steps_;  // of a 5 x 5 x 5 grid, shortest first
+  std::vector<Vec3> candidates_;           // of the vertex under consideration
   std::int64_t chains_budget_;
   std::map<std::uint32_t, std::int64_t> weight_;  // where not 1
-  std::int64_t untangle_budget_ = 0;
-  std::uint64_t positions_ = 0;  // fingerprint of the positions of all vertices
+  std::uint64_t positions_ = 0;                   // fingerprint of the positions of all vertices
 };
 
 }  // namespace delmesher::output

@@ -10,12 +10,12 @@
 //   bool is_better(Value, Value best)
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "mesher/base/epoch.h"
 #include "mesher/tetmesh/mesh_topology.h"
-#include "mesher/tetmesh/mobility.h"
 
 namespace delmesher::tetmesh {
 
@@ -34,8 +34,8 @@ class ContractEdge {
   const std::vector<TetId>& star() const { return star_; }
 
   // The best of the vertices that v can go to, if one is better than `least`; else kNone.
-  VertexId find(Mobility mobility, const Value& least, Judge& judge) {
-    find_targets(mobility);
+  VertexId find(const Value& least, Judge& judge) {
+    find_targets();
     around_.clear();
     for (const TetId t : star_) around_.emplace_back(t, mesh_.index_of(t, v_));
     VertexId target = kNone;
@@ -50,48 +50,51 @@ class ContractEdge {
   }
 
  private:
-  // The neighbours of v that are on the same edge or facet of the surface, if v is on one.
-  void find_targets(Mobility mobility) {
+  // The neighbours of v; if it is on the surface, those on the same edge or facet; none if it is on
+  // the hull beside the surface.
+  void find_targets() {
     targets_.clear();
-    if (mobility == Mobility::fixed) return;
+    edges_.clear();
     mark_.resize(mesh_.vertices(), 0);
     next_epoch(epoch_, mark_);
     mark_[v_] = epoch_;
+    bool on_hull = false;
     for (const TetId t : star_) {
-      for (const VertexId w : mesh_.tet(t)) {
-        if (mark_[w] == epoch_) continue;
-        mark_[w] = epoch_;
-        targets_.push_back(w);
+      for (int k = 0; k < 4; ++k) {
+        const VertexId w = mesh_.tet(t)[k];
+        if (mark_[w] != epoch_) {
+          mark_[w] = epoch_;
+          targets_.push_back(w);
+        }
+        if (w == v_) continue;
+        if (mesh_.facet(t, k) != kNone) {
+          note_face(t, k);
+        } else if (mesh_.neighbor(t, k) == kNone) {
+          on_hull = true;
+        }
       }
     }
-    if (mobility == Mobility::free) return;
-    find_edges_on_surface();
-    std::erase_if(targets_, [&](VertexId w) { return !stays_on_surface(mobility, w); });
+    if (edges_.empty() && on_hull) targets_.clear();
+    if (edges_.empty()) return;
+    const bool in_facet = std::ranges::all_of(
+        edges_, [&](const auto& edge) { return edge.second == edges_.front().second; });
+    std::erase_if(targets_, [&](VertexId w) { return !stays_on_surface(in_facet, w); });
   }
 
   // The edges from v on the surface: each twice, with the facets of the faces beside it.
-  void find_edges_on_surface() {
-    edges_.clear();
-    for (const TetId t : star_) {
-      for (int k = 0; k < 4; ++k) {
-        if (mesh_.facet(t, k) == kNone || mesh_.tet(t)[k] == v_ || !mesh_.is_told_from(t, k)) {
-          continue;
-        }
-        for (const int j : kFace[k]) {
-          if (mesh_.tet(t)[j] != v_) edges_.emplace_back(mesh_.tet(t)[j], mesh_.facet(t, k));
-        }
-      }
+  void note_face(TetId t, int k) {
+    if (!mesh_.is_told_from(t, k)) return;
+    for (const int j : kFace[k]) {
+      if (mesh_.tet(t)[j] != v_) edges_.emplace_back(mesh_.tet(t)[j], mesh_.facet(t, k));
     }
   }
 
   // May v go to w? Within its facet, or along the edge between its two facets.
-  bool stays_on_surface(Mobility mobility, VertexId w) const {
+  bool stays_on_surface(bool in_facet, VertexId w) const {
     FacetId first = kNone;
     for (const auto& [x, facet] : edges_) {
       if (x != w) continue;
-      if (first != kNone) {
-        return mobility == (facet == first ? Mobility::in_plane : Mobility::on_line);
-      }
+      if (first != kNone) return in_facet == (facet == first);
       first = facet;
     }
     return false;

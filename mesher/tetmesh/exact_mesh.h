@@ -18,6 +18,8 @@ namespace delmesher::tetmesh {
 class ExactMesh : public PlacedMesh {
  public:
   const PointStore& points() const { return points_; }
+  // Of a vertex within a facet.
+  FacetId facet(VertexId v) const { return facet_[v]; }
 
   // How many vertices there are more than at the beginning.
   std::int64_t vertices_gained() const { return gained_; }
