@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "mesher/policies/as_given.h"
+#include "mesher/planar/planar.h"
 
 namespace delmesher::policies {
 namespace {
