@@ -216,7 +216,8 @@ struct VertexMoves::Judge {
 
   Judge(VertexMoves& of, VertexId vertex, bool by_weight)
       : moves(of), v(vertex), weigh(by_weight), star(of.mesh_.star(vertex)) {
-    std::ranges::stable_partition(star, [&](TetId t) { return moves.mesh_.sign(t) <= 0; });
+    std::stable_partition(star.begin(), star.end(),
+                          [&](TetId t) { return moves.mesh_.sign(t) <= 0; });
     for (const TetId t : star) now += cost(t, moves.mesh_.sign(t));
   }
   Value cost(TetId t, int sign) const {
