@@ -373,6 +373,40 @@ TEST(Units, TheVerdictIsTheSameInAll) {
   }
 }
 
+// Lengths are promised in the input's units, whatever the oracles measure in.
+TEST(Units, PromisedLengthsAreTheSameInAll) {
+  for (const int power : {0, -548, 400}) {
+    delmesher::Surface surface = samples::to_surface(samples::cube().input);
+    for (auto& p : surface.vertices) {
+      for (double& x : p) x = std::ldexp(x, power);
+    }
+    delmesher::Options options;
+    options.want_exact = true;
+    options.max_edge = std::ldexp(0.6, power);
+    options.size_field = {{surface.vertices[0], std::ldexp(0.3, power)}};
+    const delmesher::Result result = delmesher::tetrahedralize(surface, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    const auto verdict = [&](const Promise& promise) {
+      VerifyReport report;
+      EXPECT_EQ(verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
+                       &result.exact, {.promised = promise}, report),
+                "");
+      return report;
+    };
+    const VerifyReport good = verdict(promise_of(options));
+    EXPECT_TRUE(samples::as_promised(good)) << power << "\n" << to_text(good);
+    Promise shorter = promise_of(options);
+    shorter.max_edge /= 4;
+    EXPECT_EQ(verdict(shorter).verdict, Verdict::broken) << power;
+    Promise smaller = promise_of(options);
+    smaller.size_field[0].size /= 8;
+    EXPECT_EQ(verdict(smaller).verdict, Verdict::broken) << power;
+    Promise elsewhere = promise_of(options);
+    elsewhere.size_field[0].point = surface.vertices.back();
+    EXPECT_EQ(verdict(elsewhere).verdict, Verdict::broken) << power;
+  }
+}
+
 // What is given up during a verification is what no oracle needs any more, whatever the number of
 // threads: the report is the same.
 void expect_the_same_report(const delmesher::Surface& surface, delmesher::Options options) {

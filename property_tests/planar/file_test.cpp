@@ -218,7 +218,7 @@ TEST(PlanarFile, NoSlabIsWiderThanTheMostThatAutoMayState) {
   told.promise.planar = Promise::kPlanarAuto;
   told.sample.mesh.planar_within = 0;
   const VerifyReport report = verdict_on(told, false);
-  EXPECT_EQ(report.verdict, Verdict::broken) << to_text(report);
+  EXPECT_FALSE(report.find("conformity")->passed()) << to_text(report);
 }
 
 // Far from the origin, where roundings are larger than any share of the size that other tolerances
