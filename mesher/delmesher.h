@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "delmesher/exact_record.h"
+#include "delmesher/labelled_faces.h"
 #include "delmesher/options.h"
 #include "delmesher/repair.h"
 #include "delmesher/run.h"

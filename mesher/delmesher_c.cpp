@@ -1,5 +1,6 @@
 #include "mesher/delmesher_c.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -111,6 +112,19 @@ void give(const T* data, const T** target) {
 
 const char* delmesher_version(void) {
   return delmesher::version();
+}
+
+delmesher_status delmesher_label_by_angle(const delmesher_surface* surface, double degrees,
+                                          int32_t* labels) {
+  if (surface == nullptr || labels == nullptr) return DELMESHER_INVALID_SURFACE;
+  try {
+    Surface labelled = surface_of(*surface);
+    const delmesher::Status status = delmesher::label_by_angle(labelled, degrees);
+    if (status.ok()) std::copy(labelled.labels.begin(), labelled.labels.end(), labels);
+    return status_of(status.code);
+  } catch (const std::bad_alloc&) {
+    return DELMESHER_LIMIT_REACHED;
+  }
 }
 
 delmesher_options* delmesher_options_new(void) {

@@ -39,6 +39,12 @@ typedef enum {
 } delmesher_status;
 /* NOLINTEND(readability-identifier-naming) */
 
+/* Labels the faces of a surface without labels by its sharp edges: `labels` gets n_triangles of
+ * them, 1, 2, ... A face grows over edges that bend by less than `degrees`, above 0 and at most 90.
+ * DELMESHER_INVALID_OPTIONS: that is not so, or there are several labels already. */
+delmesher_status delmesher_label_by_angle(const delmesher_surface* surface, double degrees,
+                                          int32_t* labels);
+
 /* Options by their names in docs/options.md, with _ for -. Switches are 0 or 1, and so is a choice
  * of two; planar is -1 for auto; paper_NAME is a choice of --as-paper. A call rejects options that
  * it does not use, and values out of range, with DELMESHER_INVALID_OPTIONS. */

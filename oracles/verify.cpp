@@ -14,6 +14,7 @@
 #include "oracles/plan.h"
 #include "oracles/record/ordinary_units.h"
 #include "oracles/record/record_origin.h"
+#include "oracles/surface/angle_labels.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -103,6 +104,12 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
                    const VerifyOptions& options, VerifyReport& report,
                    const Expendable& expendable) {
   Frame frame{&input, &mesh, exact, options, expendable};
+  std::optional<Polyhedron> labelled;
+  if (const double degrees = options.promised.label_by_angle; degrees > 0) {
+    labelled = input;
+    if (std::string why = label_by_angle(*labelled, degrees); !why.empty()) return why;
+    frame.input = &*labelled;
+  }
   report = {};
   if (exact != nullptr && names_origin(*exact) && !move_beside_origin(frame, report)) {
     conclude(0, 0, report);

@@ -649,6 +649,31 @@ TEST(FileLies, OfBytesAreRefused) {
   }
 }
 
+// The oracles label the input on their own, as the promise says.
+TEST(FileLies, LabelsByAngle) {
+  const Meshed meshed(
+      "box.off",
+      "OFF\n8 6 0\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 1\n4 0 1\n4 4 1\n0 4 1\n4 0 3 2 1\n"
+      "4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n",
+      "mesh --label-by-angle 30 --ascii", {{"mesh"}, {"msh"}, {"vtu"}});
+  const std::map<std::string, std::array<const char*, 2>> lies = {
+      {"mesh", {"Triangles\n(\\d+)\n(\\d+ \\d+ \\d+) \\d+\n", "Triangles\n$1\n$2 7\n"}},
+      {"msh", {"\n2 3 \"face_3\"", "\n2 3 \"face_4\""}},
+      {"vtu", {"(Name=\"label\"[^>]*>\n(?:0\n)*)[2-6]\n", "$011\n"}}};
+  for (const auto& [extension, text] : meshed.files()) {
+    const auto& [pattern, replacement] = lies.at(extension);
+    const std::string lie = std::regex_replace(text, std::regex(pattern), replacement,
+                                               std::regex_constants::format_first_only);
+    EXPECT_NE(lie, text) << extension;
+    for (const bool with_record : {false, true}) {
+      EXPECT_EQ(meshed.verify(extension, text, with_record), 0) << extension;
+      // Names are promised with a record alone.
+      const bool told = with_record || extension != "msh";
+      EXPECT_EQ(meshed.verify(extension, lie, with_record), told ? 1 : 0) << extension;
+    }
+  }
+}
+
 // A file cut short is rejected, wherever that is.
 TEST(FileLies, CutShortAreRefused) {
   for (const Meshed* model : {&in_space(), &of_second_order(), &of_bytes(), &in_the_plane()}) {

@@ -350,6 +350,29 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
   return d;
 }
 
+py::array label(const Array<double>& points, const Array<std::uint32_t>& triangles,
+                const Labels& labels, double degrees) {
+  Surface surface = surface_of(points, triangles, labels);
+  const Status status = [&] {
+    const py::gil_scoped_release free;
+    return label_by_angle(surface, degrees);
+  }();
+  if (!status.ok()) throw py::value_error(status.message);
+  return taken(std::move(surface.labels));
+}
+
+std::vector<py::tuple> faces(const Array<double>& points, const Array<std::uint32_t>& triangles,
+                             const Labels& labels) {
+  static constexpr const char* kShapes[] = {"planar", "cylindrical", "other"};
+  std::vector<py::tuple> rows;
+  for (const LabelledFace& face : labelled_faces(surface_of(points, triangles, labels))) {
+    rows.push_back(py::make_tuple(face.label, face.triangles, face.area,
+                                  kShapes[static_cast<std::size_t>(face.shape)], face.direction,
+                                  face.lower, face.upper));
+  }
+  return rows;
+}
+
 py::dict repair(const Array<double>& points, const Array<std::uint32_t>& triangles,
                 const Labels& labels, double weld, bool fill) {
   const Surface surface = surface_of(points, triangles, labels);
@@ -457,6 +480,8 @@ PYBIND11_MODULE(_core, module) {
   module.def("cdt", &mesh<CdtOptions, constrained_delaunay>);
   module.def("improve", &improve);
   module.def("check", &check);
+  module.def("label_by_angle", &label);
+  module.def("labelled_faces", &faces);
   module.def("repair", &repair);
   module.def("plane", &plane);
   module.def("read_surface", &read_surface_file);

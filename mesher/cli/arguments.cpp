@@ -34,7 +34,8 @@ constexpr const char* kSurfaces =
     "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input";
 void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
   app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
-  add_count(app, given.options, "jobs", "inputs at a time, 0: one per core (1)", {.high = 1024});
+  add_number(app, given.options, "jobs", "inputs at a time, 0: one per core (1)", {.high = 1024},
+             true);
   auto* quiet = app.add_flag("-q,--quiet", command.quiet, "print errors only");
   app.add_flag("-v,--verbose", command.verbose, "print what each phase did")->excludes(quiet);
 }
@@ -82,6 +83,14 @@ void add_names(CLI::App& app, Command& command) {
   add_file(app, command, "--names", &Command::names_file, "names of labels, lines LABEL NAME");
 }
 
+void add_label_by_angle(CLI::App& app, Given& given) {
+  options::Bounds bounds = options::kDegreesToRight;
+  bounds.above_low = true;
+  add_number(app, given.options, "label_by_angle",
+             "label the faces between edges that bend by this many degrees: face_1, face_2 ...",
+             bounds, false);
+}
+
 // How a mesh in space is written.
 void add_writing(CLI::App& app, Command& command) {
   add_mesh_outputs(app, command, io::mesh_extensions());
@@ -99,6 +108,7 @@ void add_options_of(CLI::App& app, Given& given, const std::vector<options::Valu
 
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
+  add_label_by_angle(app, given);
   add_writing(app, command);
   add_exact(app, command);
   add_chamfered(app, command, "write the chamfered surface, OFF");
@@ -107,6 +117,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
 
 void add_cdt(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
+  add_label_by_angle(app, given);
   add_writing(app, command);
   add_exact(app, command);
   add_options_of<CdtOptions>(app, given);
@@ -134,7 +145,8 @@ void add_check(CLI::App& app, Command& command, Given& given) {
   app.add_flag("--json", command.json, "report as JSON");
   add_file(app, command, "--defects", &Command::defects_file,
            "write the surface with its defects: .ply with coloured triangles, or .vtu with "
-           "numbers");
+           "numbers, and those of labels");
+  add_label_by_angle(app, given);
   add_options_of<CheckOptions>(app, given);
 }
 
@@ -155,6 +167,9 @@ void apply(Job job, const Given& given, Command& command) {
   const bool paper = given.options.contains("preset");
   if (const auto file = given.options.find("size_field"); file != given.options.end()) {
     command.sizes_file = file->second;
+  }
+  if (const auto angle = given.options.find("label_by_angle"); angle != given.options.end()) {
+    command.label_angle = number_of(angle->second);
   }
   const auto wanted = [&](auto options) {
     options.want_exact = !command.exact_file.empty();

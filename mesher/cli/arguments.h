@@ -29,6 +29,7 @@ struct Command {
   std::string names_file;                              // empty: names of the input
   std::string sizes_file;                              // empty: no size field
   std::string defects_file;                            // of check
+  double label_angle = 0;                              // 0: labels as read
   io::WriteOptions write;
   bool json = false, quiet = false, verbose = false;
 

@@ -193,6 +193,10 @@ std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
     const std::optional<Kind> kind = i < triangles ? kinds[i] : edges[i - triangles].kind;
     return std::to_string(kind ? static_cast<int>(*kind) + 1 : 0);
   });
+  if (surface.labels.size() == triangles) {
+    vtu_array(out, "type=\"Int32\" Name=\"label\"", cells,
+              [&](std::size_t i) { return std::to_string(i < triangles ? surface.labels[i] : 0); });
+  }
   return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 

@@ -13,8 +13,9 @@ namespace delmesher::cli {
 // grey nothing. All triangles at wrong edges are coloured; of other kinds only the triangles that
 // the report lists.
 std::string coloured_ply(const Surface& surface, const SurfaceReport& report);
-// The same as .vtu: a number for the kind of defect at each triangle, 0 where there is none. Then
-// lines: open edges, those that are not manifold, and those where orientations disagree.
+// The same as .vtu: a number for the kind of defect at each triangle, 0 where there is none, and
+// the labels of the surface. Then lines: open edges, those that are not manifold, and those where
+// orientations disagree.
 std::string defects_vtu(const Surface& surface, const SurfaceReport& report);
 // By the extension of a path.
 enum class DefectsFormat : std::uint8_t { none, ply, vtu };

@@ -184,12 +184,13 @@ void add_options(CLI::App& app, GivenOptions& given, const std::vector<Value>& d
   add_preset(app, given, defaults, preset);
 }
 
-void add_count(CLI::App& app, GivenOptions& given, const std::string& name, const std::string& help,
-               const Bounds& bounds) {
+void add_number(CLI::App& app, GivenOptions& given, const std::string& name,
+                const std::string& help, const Bounds& bounds, bool whole) {
   app.add_option_function<std::string>(
-         "--" + name, [&given, name](const std::string& text) { given[name] = text; }, help)
-      ->check(number_within(bounds, true))
-      ->type_name("N");
+         "--" + argument_name(name),
+         [&given, name](const std::string& text) { given[name] = text; }, help)
+      ->check(number_within(bounds, whole))
+      ->type_name(whole ? "N" : "X");
 }
 
 double number_of(const std::string& text) {

@@ -22,9 +22,9 @@ using GivenOptions = std::map<std::string, std::string, std::less<>>;
 void add_options(CLI::App& app, GivenOptions& given, const std::vector<options::Value>& defaults,
                  const std::vector<options::Value>& preset);
 
-// A whole number that the table does not have.
-void add_count(CLI::App& app, GivenOptions& given, const std::string& name, const std::string& help,
-               const options::Bounds& bounds);
+// A number that the table does not have.
+void add_number(CLI::App& app, GivenOptions& given, const std::string& name,
+                const std::string& help, const options::Bounds& bounds, bool whole);
 double number_of(const std::string& text);
 
 // The value that an option was given; `value` where it was not.

@@ -140,6 +140,53 @@ TEST_F(Program, CheckHintsAtWhatIsTheMatter) {
       << of_touch;
 }
 
+// The faces between sharp edges: what they are, where they are, and what they are called in files.
+TEST_F(Program, FacesGetLabelsByAngle) {
+  write("in.off", cube());
+  EXPECT_EQ(run("check in.off --label-by-angle 30 --defects faces.vtu"), 0);
+  const std::string said = text("out.txt");
+  EXPECT_NE(said.find("\n  faces with labels of their own  6\n"
+                      "    face_1: 2 triangles, area 1, normal (0.000, 0.000, -1.000), "
+                      "box (0, 0, 0) to (1, 1, 0)\n"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(text("err.txt").find("faces.vtu: the surface, with its labels"), std::string::npos);
+  EXPECT_NE(text("faces.vtu")
+                .find("Name=\"label\" format=\"ascii\">\n1\n1\n2\n2\n3\n3\n4\n4\n5\n5\n6\n6\n</"),
+            std::string::npos)
+      << text("faces.vtu");
+  EXPECT_EQ(run("check in.off --label-by-angle 30 --json"), 0);
+  EXPECT_NE(text("out.txt").find("\"name\": \"face_6\""), std::string::npos) << text("out.txt");
+  EXPECT_EQ(run("check in.off"), 0);
+  EXPECT_EQ(text("out.txt").find("labels"), std::string::npos) << text("out.txt");
+
+  write("names.txt", "2 outlet\n");
+  for (const std::string job : {"mesh", "cdt"}) {
+    EXPECT_EQ(run(job + " in.off --label-by-angle 30 --names names.txt -o mesh.msh -o mesh.inp -o "
+                        "mesh.bdf -o mesh.vtu --ascii"),
+              0);
+    EXPECT_NE(text("mesh.msh").find("\n2 1 \"face_1\"\n2 2 \"outlet\"\n2 3 \"face_3\"\n"),
+              std::string::npos)
+        << text("mesh.msh").substr(0, 400);
+    for (const char* file : {"mesh.inp", "mesh.bdf", "mesh.vtu"}) {
+      EXPECT_NE(text(file).find("face_6"), std::string::npos) << file;
+    }
+  }
+  // An angle labels what has no labels; what is no surface is refused for that.
+  write("in.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+        "property double z\nelement face 4\nproperty list uchar int vertex_indices\n"
+        "property int label\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1 7\n3 0 1 3 8\n"
+        "3 1 2 3 7\n3 0 3 2 7\n");
+  EXPECT_EQ(run("mesh in.ply --label-by-angle 30 -o mesh.msh"), 2);
+  expect_error("in.ply", "--label-by-angle: the surface has labels already");
+  write("in.off", replaced(cube(), "3 1 7 5\n", "3 1 7 1\n"));
+  EXPECT_EQ(run("mesh in.off --label-by-angle 30 -o mesh.msh"), 4);
+  for (const char* angle : {"0", "91", "-3", "x"}) {
+    EXPECT_EQ(run("mesh in.off -o mesh.msh --label-by-angle " + std::string(angle)), 2) << angle;
+  }
+}
+
 TEST_F(Program, RepairWritesNothingWhereNothingIsLeft) {
   write("in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
   EXPECT_EQ(run("repair in.off -o out.off"), 1);

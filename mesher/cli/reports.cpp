@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "mesher/delmesher/option_table.h"
+#include "mesher/io/named_sets.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::cli {
@@ -83,6 +84,7 @@ Json parameters_json(const Command& command) {
           option.kind == options::Kind::sources ? Json(command.sizes_file) : value_json(option);
     }
   }
+  if (command.label_angle > 0) parameters["label_by_angle"] = command.label_angle;
   return parameters;
 }
 
@@ -136,6 +138,66 @@ std::uint64_t total_defects(const SurfaceReport& report) {
   std::uint64_t total = 0;
   for (std::uint64_t count : report.defect_counts) total += count;
   return total;
+}
+
+// None where all triangles have one label.
+std::vector<LabelledFace> several_faces(const Surface& surface) {
+  std::vector<LabelledFace> faces = labelled_faces(surface);
+  if (faces.size() == 1) faces.clear();
+  return faces;
+}
+
+const char* direction_name(const LabelledFace& face) {
+  return face.shape == LabelledFace::Shape::planar        ? "normal"
+         : face.shape == LabelledFace::Shape::cylindrical ? "axis"
+                                                          : "";
+}
+
+std::string text_of(const std::array<double, 3>& p, const char* format) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, p[0] + 0.0, p[1] + 0.0, p[2] + 0.0);  // no -0
+  return text;
+}
+
+// A table of the first faces.
+std::string faces_text(const Surface& surface, const io::LabelNames& names) {
+  constexpr std::size_t kMost = 50;
+  const std::vector<LabelledFace> faces = several_faces(surface);
+  std::string out;
+  for (std::size_t n = 0; n < faces.size() && n < kMost; ++n) {
+    const LabelledFace& face = faces[n];
+    const std::string name = io::label_name(names, face.label);
+    const std::string direction =
+        face.shape == LabelledFace::Shape::other
+            ? ""
+            : direction_name(face) + text_of(face.direction, " (%.3f, %.3f, %.3f)");
+    char line[160];
+    std::snprintf(line, sizeof line, ": %llu triangles, area %.5g, ",
+                  static_cast<unsigned long long>(face.triangles), face.area);
+    out += "    " + name + line + (direction.empty() ? "" : direction + ", ") + "box " +
+           text_of(face.lower, "(%.5g, %.5g, %.5g)") + " to " +
+           text_of(face.upper, "(%.5g, %.5g, %.5g)") + "\n";
+  }
+  if (faces.size() > kMost) {
+    out += "    and " + std::to_string(faces.size() - kMost) + " more, see --json\n";
+  }
+  if (!faces.empty())
+    out = "  faces with labels of their own  " + std::to_string(faces.size()) + "\n" + out;
+  return out;
+}
+
+Json faces_json(const Surface& surface, const io::LabelNames& names) {
+  Json faces = Json::array();
+  for (const LabelledFace& face : several_faces(surface)) {
+    Json json = {{"label", face.label},
+                 {"name", io::label_name(names, face.label)},
+                 {"triangles", face.triangles},
+                 {"area", face.area},
+                 {"box", {face.lower, face.upper}}};
+    if (face.shape != LabelledFace::Shape::other) json[direction_name(face)] = face.direction;
+    faces.push_back(std::move(json));
+  }
+  return faces;
 }
 
 }  // namespace
@@ -282,7 +344,7 @@ std::vector<std::string> limits_texts(const Statistics& s) {
   return texts;
 }
 
-std::string check_text(const std::string& file, const Surface& surface,
+std::string check_text(const std::string& file, const Surface& surface, const io::LabelNames& names,
                        const SurfaceReport& report) {
   std::string out = file + ": ";
   out += report.status.ok() ? "a valid surface\n" : "not a valid surface\n";
@@ -305,6 +367,7 @@ std::string check_text(const std::string& file, const Surface& surface,
     line("acute vertices", std::to_string(report.acute_vertices));
     line("acute edges", std::to_string(report.acute_edges));
     line("smallest local feature size", number(report.smallest_local_feature_size));
+    out += faces_text(surface, names);
   }
   for (const std::string& warning : report.warnings) out += "  warning: " + warning + "\n";
   for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
@@ -327,7 +390,7 @@ std::string check_text(const std::string& file, const Surface& surface,
   return out;
 }
 
-std::string check_json(const std::string& file, const Surface& surface,
+std::string check_json(const std::string& file, const Surface& surface, const io::LabelNames& names,
                        const SurfaceReport& report) {
   Json defects = Json::array(), counts = Json::object();
   for (const Defect& defect : report.defects) {
@@ -364,6 +427,7 @@ std::string check_json(const std::string& file, const Surface& surface,
     json["acute_vertices"] = report.acute_vertices;
     json["acute_edges"] = report.acute_edges;
     json["smallest_local_feature_size"] = report.smallest_local_feature_size;
+    json["faces"] = faces_json(surface, names);
   }
   json["warnings"] = report.warnings;
   json["defect_count"] = total_defects(report);

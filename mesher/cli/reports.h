@@ -37,10 +37,10 @@ std::string planar_text(const std::string& file, const Statistics& statistics, b
 // One line for each limit that the mesher set itself and that struck, for -v.
 std::vector<std::string> limits_texts(const Statistics& statistics);
 
-// The report of `check`.
-std::string check_text(const std::string& file, const Surface& surface,
+// The report of `check`, with the faces of a surface that has several labels.
+std::string check_text(const std::string& file, const Surface& surface, const io::LabelNames& names,
                        const SurfaceReport& report);
-std::string check_json(const std::string& file, const Surface& surface,
+std::string check_json(const std::string& file, const Surface& surface, const io::LabelNames& names,
                        const SurfaceReport& report);
 
 // CPU seconds and peak memory of this process so far.

@@ -25,6 +25,7 @@ class Runner : RunSteps {
 
  private:
   int read();
+  int label_by_angle();
   int check();
   int mesh();
   int write_defects(const SurfaceReport& report) const;
@@ -45,15 +46,32 @@ int Runner::read() {
   names_ = std::move(input.names);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
-  return read_beside(names_, surface_.labels);
+  const int code = label_by_angle();
+  return code == kDone ? read_beside(names_, surface_.labels) : code;
+}
+
+// What is no surface keeps its labels: the job says why it is none.
+int Runner::label_by_angle() {
+  if (command_.label_angle == 0) return kDone;
+  const Status status = delmesher::label_by_angle(surface_, command_.label_angle);
+  if (status.code == StatusCode::invalid_surface) return kDone;
+  if (!status.ok()) {
+    return fail_input(exit_code_of(status.code), "--label-by-angle: " + status.message);
+  }
+  names_.clear();
+  for (const std::int32_t label : surface_.labels) {
+    names_.try_emplace(label, "face_" + std::to_string(label));
+  }
+  remark(command_.input + ": " + std::to_string(names_.size()) + " faces by angle");
+  return kDone;
 }
 
 int Runner::check() {
   const SurfaceReport report = check_surface(surface_);
   const StatusCode code = report.status.code;
   if (code == StatusCode::ok || code == StatusCode::invalid_surface) {
-    streams_.out(command_.json ? check_json(command_.input, surface_, report)
-                               : check_text(command_.input, surface_, report));
+    streams_.out(command_.json ? check_json(command_.input, surface_, names_, report)
+                               : check_text(command_.input, surface_, names_, report));
   }
   if (!command_.defects_file.empty() &&
       (code == StatusCode::ok || code == StatusCode::invalid_surface)) {
@@ -75,7 +93,8 @@ int Runner::write_defects(const SurfaceReport& report) const {
   const Deferring deferring;
   status = outputs.commit();
   if (!status.ok()) return fail(kUnreadable, status.error);
-  say(command_.defects_file + ": the surface, coloured by what is wrong; " +
+  say(command_.defects_file + ": the surface, " +
+      (vtu && !surface_.labels.empty() ? "with its labels, " : "") + "coloured by what is wrong; " +
       (vtu ? "ParaView opens it" : "MeshLab and Blender open it"));
   return kDone;
 }

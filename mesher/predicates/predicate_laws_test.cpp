@@ -175,6 +175,7 @@ TEST(Signs, KnownCases) {
   const VertexId o = store.add_explicit(0, 0, 0), x = store.add_explicit(1, 0, 0);
   const VertexId y = store.add_explicit(0, 1, 0), z = store.add_explicit(0, 0, 1);
   const VertexId in = store.add_explicit(0.3, 0.3, 0.3), out = store.add_explicit(2, 2, 2);
+  const VertexId below = store.add_explicit(0, -1, 1);
   Predicates p(store);
   EXPECT_EQ(p.orient3d(o, x, y, z), 1);
   EXPECT_EQ(p.orient2d(2, o, x, y), 1);
@@ -197,6 +198,10 @@ TEST(Signs, KnownCases) {
   EXPECT_FALSE(p.angle_below(x, o, y, cosine_squared(90)));
   EXPECT_TRUE(p.dihedral_below(in, y, o, x, cosine_squared(46)));
   EXPECT_FALSE(p.dihedral_below(in, y, o, x, cosine_squared(45)));
+  EXPECT_FALSE(p.bends_below(in, y, o, x, cosine_squared(90)));
+  EXPECT_FALSE(p.bends_below(z, y, o, x, cosine_squared(90)));
+  EXPECT_TRUE(p.bends_below(y, below, o, x, cosine_squared(45.001)));
+  EXPECT_FALSE(p.bends_below(y, below, o, x, cosine_squared(45)));
   EXPECT_TRUE(p.edge_plane_angle_below(out, o, x, y, cosine_squared(36)));
   EXPECT_FALSE(p.edge_plane_angle_below(out, o, x, y, cosine_squared(35)));
 }

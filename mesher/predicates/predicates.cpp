@@ -199,6 +199,12 @@ bool Predicates::dihedral_below(VertexId a, VertexId b, VertexId c, VertexId d,
   return dihedral_sign(a, b, c, d) > 0 && sign(polynomials::DihedralExcess{cosine_squared}, v) > 0;
 }
 
+bool Predicates::bends_below(VertexId a, VertexId b, VertexId c, VertexId d,
+                             double cosine_squared) {
+  const VertexId v[] = {a, b, c, d};
+  return dihedral_sign(a, b, c, d) < 0 && sign(polynomials::DihedralExcess{cosine_squared}, v) > 0;
+}
+
 bool Predicates::edge_plane_angle_below(VertexId q, VertexId a, VertexId b, VertexId c,
                                         double cosine_squared) {
   const VertexId v[] = {q, a, b, c};

@@ -109,6 +109,8 @@ class Predicates {
   bool angle_below(VertexId p, VertexId q, VertexId r, double cosine_squared);
   // Same for the dihedral angle of triangles acd and bcd at edge cd.
   bool dihedral_below(VertexId a, VertexId b, VertexId c, VertexId d, double cosine_squared);
+  // Same for the angle by which acd and bcd bend at edge cd: 0 if they continue each other.
+  bool bends_below(VertexId a, VertexId b, VertexId c, VertexId d, double cosine_squared);
   // Same for the angle between the ray from a towards q and the plane of abc (its projection). Does
   // not ask where the projection falls.
   bool edge_plane_angle_below(VertexId q, VertexId a, VertexId b, VertexId c,
@@ -132,7 +134,7 @@ class Predicates {
 };
 
 // Squared cosine of an angle given in degrees, in [0, 90], by a fixed sequence of IEEE operations:
-// the same double in every build (libm differs between builds). Exact for 0, 60 and 90.
+// the same double in every build (libm differs between builds). Exact for 0, 30, 45, 60 and 90.
 double cosine_squared(double degrees);
 
 }  // namespace delmesher::predicates

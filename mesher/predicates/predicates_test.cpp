@@ -180,6 +180,8 @@ TEST_P(PredicatesOnFamilies, Angles) {
       ASSERT_EQ(predicates.angle_below(v[0], v[1], v[2], t), angle);
       ASSERT_EQ(predicates.dihedral_below(v[0], v[1], v[2], v[3], t),
                 reference::dihedral_below(p.data(), t));
+      ASSERT_EQ(predicates.bends_below(v[0], v[1], v[2], v[3], t),
+                reference::bends_below(p.data(), t));
       ASSERT_EQ(predicates.edge_plane_angle_below(v[0], v[1], v[2], v[3], t),
                 reference::edge_plane_angle_below(p.data(), t));
     }

@@ -165,6 +165,11 @@ inline bool dihedral_below(const Point* p, double cosine_squared) {
   return below(cross(minus(p[1], p[3]), edge), cross(minus(p[0], p[3]), edge), cosine_squared);
 }
 
+inline bool bends_below(const Point* p, double cosine_squared) {
+  const Point edge = minus(p[2], p[3]);
+  return below(cross(minus(p[1], p[3]), edge), cross(edge, minus(p[0], p[3])), cosine_squared);
+}
+
 // With the projection of q - a onto the plane of abc, where it exists.
 inline bool edge_plane_angle_below(const Point* p, double cosine_squared) {
   const Point w = minus(p[0], p[1]);

@@ -97,6 +97,7 @@ constexpr Option kOptions[] = {
     {"--acute", kMesh, Takes::number, &Promise::acute, 0, 90},
     {"--acute", kPlane, Takes::number, &Promise::acute, 60, 90},
     {"--corner", kMesh, Takes::number, &Promise::corner, 0, 90},
+    {"--label-by-angle", kSurface, Takes::number, &Promise::label_by_angle, 0, 90, true},
     {"--chamfer-radius", kMesh | kPlane, Takes::length, &Promise::chamfer_radius, 0, kMost, true},
     {"--max-edge", kMesh | kPlane | kImprove, Takes::length, &Promise::max_edge, 0, kMost, true},
     {"--size-field", kMesh | kImprove, Takes::sizes},

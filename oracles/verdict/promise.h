@@ -28,8 +28,9 @@ struct Promise {
   double planar = kPlanarAuto;  // the same
   // What the record or the file says of itself, if it does. The verification sets it.
   std::optional<double> stated_planar = {};
-  double acute = 60;   // degrees
-  double corner = 20;  // degrees, as given
+  double acute = 60;          // degrees
+  double corner = 20;         // degrees, as given
+  double label_by_angle = 0;  // degrees; 0: labels as read
   bool gabriel = false;
   bool approximate = false;
   bool improve = true;

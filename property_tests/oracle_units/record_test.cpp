@@ -107,6 +107,10 @@ TEST(Promises, AreReadFromCommandLines) {
     EXPECT_EQ(parse_promise(text, p), "") << text;
     EXPECT_FALSE(p.link) << text;
   }
+  for (const char* text : {"--label-by-angle 30", "cdt --label-by-angle=30"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_EQ(p.label_by_angle, 30) << text;
+  }
   EXPECT_EQ(parse_promise("cdt --order 2", p), "");
   EXPECT_TRUE(p.second_order);
   EXPECT_EQ(parse_promise("--order=1", p), "");
@@ -145,6 +149,9 @@ TEST(Promises, AreReadFromCommandLines) {
                            "--as-paper none,order",
                            "--as-paper all,order",
                            "--as-paper orders",
+                           "--label-by-angle 0",
+                           "--label-by-angle 90.1",
+                           "improve --label-by-angle 30",
                            "--order 3",
                            "--order 1.5",
                            "plane --order 2"}) {

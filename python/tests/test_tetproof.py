@@ -459,3 +459,32 @@ def test_results_outlive_each_other():
     for _ in range(20):
         tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3)
     assert np.array_equal(points, copy)
+
+
+def test_faces_between_sharp_edges_get_labels():
+    surface = tetproof.label_by_angle(POINTS, TRIANGLES, degrees=30)
+    assert np.array_equal(surface.labels, LABELS) and surface.names == {n: "face_%d" % n for n in range(1, 7)}
+    bottom = surface.faces()[0]
+    assert bottom[:5] == (1, "face_1", 2, 1.0, "planar") and np.array_equal(bottom.direction, [0, 0, -1])
+    assert np.array_equal(bottom.lower, [0, 0, 0]) and np.array_equal(bottom.upper, [1, 1, 0])
+    mesh = tetproof.mesh(surface)
+    assert mesh.names[6] == "face_6" and set(mesh.labels) == set(range(1, 7))
+    for wrong in (0, 90.5, float("nan")):
+        with pytest.raises(ValueError, match="at most 90 degrees"):
+            tetproof.label_by_angle(POINTS, TRIANGLES, degrees=wrong)
+    with pytest.raises(ValueError, match="labels already"):
+        tetproof.label_by_angle(surface, degrees=30)
+
+
+def test_sides_of_a_cylinder_are_one_face(tmp_path):
+    n = 24
+    turns = 2 * np.pi * np.arange(n) / n
+    ring = np.column_stack([np.cos(turns), np.sin(turns), 0 * turns])
+    points = np.vstack([ring, ring + [0, 0, 3], [[0, 0, 0], [0, 0, 3]]])
+    triangles = [t for i in range(n) for j in [(i + 1) % n]
+                 for t in ([i, j, n + j], [i, n + j, n + i], [2 * n, j, i], [2 * n + 1, n + i, n + j])]
+    tetproof.write(tmp_path / "can.stl", tetproof.Surface(points, np.array(triangles), np.zeros(4 * n, np.int32)))
+    side, *caps = tetproof.label_by_angle(tmp_path / "can.stl", degrees=30).faces()
+    assert side.shape == "cylindrical" and np.allclose(side.direction, [0, 0, 1]) and side.triangles == 2 * n
+    assert side.area == pytest.approx(2 * n * np.sin(np.pi / n) * 3, rel=1e-6)
+    assert [np.round(cap.direction[2]) for cap in caps] == [-1, 1]

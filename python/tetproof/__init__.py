@@ -31,8 +31,8 @@ else:
     Array = np.ndarray
 
 __version__ = _core.version
-__all__ = ["Defect", "Error", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh",
-           "Repaired", "Report", "Surface", "TenNodes", "cdt", "check", "improve", "mesh", "plane", "read", "read_mesh", "repair", "write"]
+__all__ = ["Defect", "Error", "Face", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh",
+           "Repaired", "Report", "Surface", "TenNodes", "cdt", "check", "improve", "label_by_angle", "mesh", "plane", "read", "read_mesh", "repair", "write"]
 
 #: Called several times a second with the phase, the fraction done (negative: unknown) and the vertices so far; False ends the run.
 Progress = Callable[[str, float, int], Optional[bool]]
@@ -70,6 +70,20 @@ class Defect(NamedTuple):
     message: str
     vertices: Array
     triangles: Array
+
+
+class Face(NamedTuple):
+    """The triangles of one label of a surface: how many, their area, and the two corners of their bounding box. The shape is "planar"
+    (then `direction` is the normal, outwards), "cylindrical" (then it is that of the axis) or "other" (then it is zero), within a
+    thousandth of the box."""
+    label: int
+    name: str
+    triangles: int
+    area: float
+    shape: str
+    direction: Array
+    lower: Array
+    upper: Array
 
 
 class TenNodes(NamedTuple):
@@ -133,6 +147,12 @@ class Surface:
     def __repr__(self) -> str:
         return _line(type(self).__name__, (len(self.points), "points"), (len(self.triangles), "triangles"),
                      (len(np.unique(self.labels)), "labels"))
+
+    def faces(self) -> List[Face]:
+        """What the triangles of each label are, by label."""
+        rows = _core.labelled_faces(*_surface(self, None, None))
+        return [Face(label, self.names.get(label, "label %d" % label), count, area, shape, *map(np.array, vectors))
+                for label, count, area, shape, *vectors in rows]
 
     def write(self, path: "Union[str, os.PathLike[str]]") -> None:
         """Write an .stl, .ply or .off, see `write`."""
@@ -638,6 +658,33 @@ def check(points: Any, triangles: Any = None, **options: Any) -> Report:
     fields["places"] = {kind: _signed(places) for kind, places in result["places"].items()}
     fields["defects"] = [Defect(kind, text, _signed(vertices), _signed(triangles)) for kind, text, vertices, triangles in result["defects"]]
     return Report(**fields)
+
+
+def label_by_angle(points: Any, triangles: Any = None, *, degrees: float) -> Surface:
+    """Label the faces of a surface without labels by its sharp edges, and call them face_1, face_2, ...
+
+    A face grows over edges at which two triangles bend by less than `degrees`, decided exactly; faces are numbered by their smallest
+    triangle. `Surface.faces` says what they are.
+
+    Parameters
+    ----------
+    points, triangles
+        As in `mesh`.
+    degrees : float
+        Above 0, at most 90.
+
+    Raises
+    ------
+    ValueError
+        There are several labels already, the angle is out of range, or a triangle or a point makes no sense.
+
+    >>> [face.name for face in tetproof.label_by_angle(points, triangles, degrees=30).faces()][:2]
+    ['face_1', 'face_2']
+    """
+    points = _read_first(points, triangles)
+    arrays = _surface(points, triangles, None)
+    labels = _core.label_by_angle(*arrays, float(degrees))
+    return Surface(arrays[0], _signed(arrays[1]), labels, {label: "face_%d" % label for label in np.unique(labels).tolist()})
 
 
 def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: float = 0, fill: bool = False) -> Repaired:

@@ -26,6 +26,15 @@ int main(void) {
   for (int corner = 0; corner < 8; ++corner) {
     for (int k = 0; k < 3; ++k) points[3 * corner + k] = corner >> k & 1;
   }
+  int32_t by_angle[12] = {0};
+  if (delmesher_label_by_angle(&cube, 30, by_angle) != DELMESHER_INVALID_OPTIONS) return fail("labelled twice");
+  cube.labels = NULL;
+  if (delmesher_label_by_angle(&cube, 91, by_angle) != DELMESHER_INVALID_OPTIONS) return fail("labelled by 91 degrees");
+  if (delmesher_label_by_angle(&cube, 30, NULL) != DELMESHER_INVALID_SURFACE) return fail("labels for nobody");
+  if (by_angle[0] != 0) return fail("labels although refused");
+  if (delmesher_label_by_angle(&cube, 30, by_angle) != DELMESHER_OK) return fail("not labelled by angle");
+  if (memcmp(by_angle, labels, sizeof labels) != 0) return fail("other labels by angle");
+  cube.labels = by_angle;
   delmesher_options* options = delmesher_options_new();
   if (delmesher_options_set(options, "max_edge", 0.5) != 0) return fail("max_edge is no option");
   const double sources[] = {0, 0, 0, 0.25, 1, 1, 1, 0.25};
