@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "mesher/base/ids.h"
 
@@ -12,9 +13,10 @@ namespace delmesher::base {
 
 // The same for both sides of the face.
 inline std::array<VertexId, 3> undirected_face(VertexId a, VertexId b, VertexId c) {
-  std::array<VertexId, 3> face = {a, b, c};
-  std::sort(face.begin(), face.end());
-  return face;
+  if (b < a) std::swap(a, b);
+  if (c < b) std::swap(b, c);
+  if (b < a) std::swap(a, b);
+  return {a, b, c};
 }
 
 // The same for one side of the face: its vertices in their order, from the smallest one on.

@@ -19,7 +19,7 @@ bool Collapse::run(VertexId v, const Quality& least) {
 
 bool Collapse::take_out(VertexId v, const Quality& least) {
   Judge judge{state_, least};
-  const VertexId target = operation_.find(0, judge);
+  const VertexId target = operation_.find(0, judge, state_.mobility(v) == Mobility::free);
   if (target == kNone || !certain(v, target)) return false;
   state_.contract(v, target, operation_.star());
   return true;

@@ -39,7 +39,7 @@ bool LocalOperations::remove_face(TetId t, int i) {
 bool LocalOperations::collapse(VertexId v) {
   if (mesh_.fixed(v) || mesh_.on_surface(v) || !mesh_.is_enclosed(v)) return false;
   vertices_.begin(v);
-  const VertexId w = vertices_.find(false, judge_);
+  const VertexId w = vertices_.find(false, judge_, true);
   if (w == kNone) return false;
   Change change{vertices_.star(), {}, {}};
   for (const TetId t : vertices_.star()) {

@@ -34,8 +34,9 @@ class ContractEdge {
   const std::vector<TetId>& star() const { return star_; }
 
   // The best of the vertices that v can go to, if one is better than `least`; else kNone.
-  VertexId find(const Value& least, Judge& judge) {
-    find_targets();
+  // `in_volume`: v is known to be neither on the surface nor on the hull.
+  VertexId find(const Value& least, Judge& judge, bool in_volume = false) {
+    find_targets(in_volume);
     around_.clear();
     for (const TetId t : star_) around_.emplace_back(t, mesh_.index_of(t, v_));
     VertexId target = kNone;
@@ -52,28 +53,20 @@ class ContractEdge {
  private:
   // The neighbours of v; if it is on the surface, those on the same edge or facet; none if it is on
   // the hull beside the surface.
-  void find_targets() {
+  void find_targets(bool in_volume) {
     targets_.clear();
-    edges_.clear();
     mark_.resize(mesh_.vertices(), 0);
     next_epoch(epoch_, mark_);
     mark_[v_] = epoch_;
-    bool on_hull = false;
     for (const TetId t : star_) {
-      for (int k = 0; k < 4; ++k) {
-        const VertexId w = mesh_.tet(t)[k];
-        if (mark_[w] != epoch_) {
-          mark_[w] = epoch_;
-          targets_.push_back(w);
-        }
-        if (w == v_) continue;
-        if (mesh_.facet(t, k) != kNone) {
-          note_face(t, k);
-        } else if (mesh_.neighbor(t, k) == kNone) {
-          on_hull = true;
-        }
+      for (const VertexId w : mesh_.tet(t)) {
+        if (mark_[w] == epoch_) continue;
+        mark_[w] = epoch_;
+        targets_.push_back(w);
       }
     }
+    if (in_volume) return;
+    const bool on_hull = find_edges_on_surface();
     if (edges_.empty() && on_hull) targets_.clear();
     if (edges_.empty()) return;
     const bool in_facet = std::ranges::all_of(
@@ -81,12 +74,23 @@ class ContractEdge {
     std::erase_if(targets_, [&](VertexId w) { return !stays_on_surface(in_facet, w); });
   }
 
-  // The edges from v on the surface: each twice, with the facets of the faces beside it.
-  void note_face(TetId t, int k) {
-    if (!mesh_.is_told_from(t, k)) return;
-    for (const int j : kFace[k]) {
-      if (mesh_.tet(t)[j] != v_) edges_.emplace_back(mesh_.tet(t)[j], mesh_.facet(t, k));
+  // The edges from v on the surface: each twice, with the facets of the faces beside it. Is a face
+  // at v on the hull, and not on the surface?
+  bool find_edges_on_surface() {
+    edges_.clear();
+    bool on_hull = false;
+    for (const TetId t : star_) {
+      for (int k = 0; k < 4; ++k) {
+        const FacetId facet = mesh_.facet(t, k);
+        if (mesh_.tet(t)[k] == v_) continue;
+        on_hull = on_hull || (facet == kNone && mesh_.neighbor(t, k) == kNone);
+        if (facet == kNone || !mesh_.is_told_from(t, k)) continue;
+        for (const int j : kFace[k]) {
+          if (mesh_.tet(t)[j] != v_) edges_.emplace_back(mesh_.tet(t)[j], facet);
+        }
+      }
     }
+    return on_hull;
   }
 
   // May v go to w? Within its facet, or along the edge between its two facets.

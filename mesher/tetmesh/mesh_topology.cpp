@@ -39,7 +39,8 @@ void MeshTopology::link(std::span<const SurfaceFace> boundary) {
     return undirected_face(face.vertices[0], face.vertices[1], face.vertices[2]);
   };
   for (TetId t = 0; t < tet_.size(); ++t) {
-    for (int i = 0; i < 4; ++i) ++begin[face_of(t, i)[0] + 1];
+    const Tet& v = tet_[t];
+    for (const auto& [i, j, k] : kFace) ++begin[std::min({v[i], v[j], v[k]}) + 1];
   }
   for (const SurfaceFace& face : boundary) ++begin[key_of(face)[0] + 1];
   for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
