@@ -93,7 +93,8 @@ RefinedMesh refine(InputGraph& graph, const Chamfered& chamfered, Session& s) {
 std::vector<double> enrich(const InputGraph& graph, const Chamfered& chamfered, RefinedMesh& mesh,
                            Session& s) {
   s.control.enter(Phase::enrich);
-  enrich(graph, chamfered, mesh.mesh, s.points, s.control);
+  enrich(graph, chamfered, mesh.carrier, s.options.as_paper.kept_points, mesh.mesh, s.points,
+         s.predicates, s.control);
   if (kValidating) mesh.mesh.validate(true);
   s.control.enter(Phase::classify);
   Faces faces = find_faces(graph, mesh.mesh, s.points, nullptr);

@@ -135,6 +135,44 @@ TEST(Plane, CornersComeBackWithoutNeedles) {
   EXPECT_GT(result.statistics.final.min_angle, 2);
 }
 
+// A fan of n spokes in a square, evenly or not: no angle of the mesh is smaller than those of the
+// fan. Where all points are kept, as in the paper, points beside the spokes make needles.
+TEST(Plane, FansComeBackWithTheirOwnAngles) {
+  for (const int n : {7, 24, 100}) {
+    for (const bool even : {true, false}) {
+      PlanarGraph graph;
+      graph.vertices = {{0, 0}, {-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+      graph.segments = {{1, 2}, {2, 3}, {3, 4}, {4, 1}};
+      double smallest = 360;
+      for (int i = 0, before = -1; i < n; ++i) {
+        const int turn = even || i % 3 != 1 ? 2 * i : 2 * i + 1;  // of 2 n
+        const double angle = 3.14159265358979323846 * turn / n;
+        graph.segments.push_back({0, static_cast<std::uint32_t>(graph.vertices.size())});
+        graph.vertices.push_back({std::cos(angle), std::sin(angle)});
+        if (before >= 0) smallest = std::min(smallest, 180.0 * (turn - before) / n);
+        before = turn;
+      }
+      PlaneOptions options = exact_options();
+      const double kept = std::min(smallest, 20.0) - 1e-9;
+      EXPECT_GE(expect_verified(graph, options).statistics.final.min_angle, kept) << n << even;
+      if (n == 24) {
+        // What was cut off is longer than these edges, so angles beside it are smaller: no needles.
+        options.max_edge = 0.1;
+        const PlaneResult fine = expect_verified(graph, options);
+        EXPECT_GE(fine.statistics.final.min_angle, 1) << even;
+        options.as_paper.kept_points = true;
+        const tetproof::PlaneVerdict verdict = tetproof::verify_plane(graph, options, fine);
+        EXPECT_FALSE(verdict.ok());
+        for (const std::string& failure : verdict.failures) {
+          EXPECT_TRUE(failure.starts_with("enrichment: refined vertex")) << failure;
+        }
+        options.max_edge = 0;
+        expect_verified(graph, options);
+      }
+    }
+  }
+}
+
 TEST(Plane, TinyAngles) {
   std::uint64_t chamfered = 0, dropped = 0;
   const int n = iterations(96);

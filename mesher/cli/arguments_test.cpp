@@ -227,7 +227,8 @@ TEST(Arguments, OtherJobs) {
   const Parsed plane = parse({"plane", "in.poly", "-o", "out.svg", "--preset", "paper"});
   EXPECT_TRUE(plane.run);
   EXPECT_EQ(plane.command.job(), Job::plane);
-  EXPECT_EQ(options_of<PlaneOptions>(plane).as_paper, PlaneAsPaper{.steiner_point = true});
+  EXPECT_EQ(options_of<PlaneOptions>(plane).as_paper,
+            (PlaneAsPaper{.steiner_point = true, .kept_points = true}));
   expect_usage_error({"plane", "i.off", "-o", "o.node", "--as-paper", "order"}, "order");
   expect_usage_error({"plane", "in.poly", "-o", "out.mesh"},
                      "out.mesh: unknown mesh format (.node, .vtu, .off, .msh or .svg)");

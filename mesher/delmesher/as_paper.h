@@ -40,9 +40,12 @@ struct AsPaper {
   bool operator==(const AsPaper&) const = default;
 };
 
-// Of these, the one that there is in the plane.
+// Of these, those that there are in the plane (section 3).
 struct PlaneAsPaper {
-  bool steiner_point = false;  // section 3: triangles are split at their circumcentre
+  bool steiner_point = false;  // triangles are split at their circumcentre
+  // All vertices of the refined mesh are vertices of the final one. Otherwise those in faces that
+  // encroach on what was cut off of a segment are not.
+  bool kept_points = false;
 
   bool operator==(const PlaneAsPaper&) const = default;
 };

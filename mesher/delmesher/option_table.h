@@ -234,7 +234,7 @@ inline constexpr std::tuple kTable{
     Row({.name = "paper_kept_points",
          .help = "all vertices outside the chamfers are kept to the end (section 6)",
          .promised = true},
-        &AsPaper::kept_points),
+        &AsPaper::kept_points, &PlaneAsPaper::kept_points),
     Row({.name = "paper_enrichment",
          .help = "the surface is always enriched (section 6)",
          .promised = true},

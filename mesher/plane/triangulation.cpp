@@ -1,6 +1,7 @@
 #include "mesher/plane/triangulation.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "mesher/base/check.h"
@@ -476,6 +477,67 @@ Triangulation::Obstacle Triangulation::insert_segment(VertexId a, VertexId b, Pi
   }
   if (reversed) std::reverse(chain.begin(), chain.end());
   return {};
+}
+
+// ---------------------------------------------------------------------------------- removal
+
+bool Triangulation::is_ear(std::size_t k) {
+  const BoundaryEdge &e = boundary_[k], &f = boundary_[(k + 1) % boundary_.size()];
+  if (predicates_->orient(e.from, e.to, f.to) <= 0) return false;
+  return std::none_of(boundary_.begin(), boundary_.end(), [&](const BoundaryEdge& other) {
+    const VertexId u = other.from;
+    return u != e.from && u != e.to && u != f.to && predicates_->orient(e.from, e.to, u) >= 0 &&
+           predicates_->orient(e.to, f.to, u) >= 0 && predicates_->orient(f.to, e.from, u) >= 0;
+  });
+}
+
+// The triangle must be no other one's neighbour.
+void Triangulation::drop(TriangleId t) {
+  const auto last = static_cast<TriangleId>(triangles_.size() - 1);
+  if (t != last) {
+    triangles_[t] = triangles_[last];
+    for (int i = 0; i < 3; ++i) {
+      link(edge_of(t, i), triangles_[t].neighbor[static_cast<std::size_t>(i)]);
+      around_[triangles_[t].vertex[static_cast<std::size_t>(i)]] = t;
+    }
+  }
+  triangles_.pop_back();
+}
+
+// Cuts ears off the polygon around the vertex, in the place of its triangles.
+void Triangulation::remove(VertexId v) {
+  std::vector<EdgeId> spokes;
+  star(v, spokes);
+  boundary_.clear();
+  std::vector<TriangleId> free, made;
+  for (const EdgeId e : spokes) {
+    DELMESHER_CHECK(piece(after(e)) == kNone, "a vertex on a segment is to be removed");
+    boundary_.push_back({origin(e), target(e), twin(e), piece(e), triangle_of(e)});
+    free.push_back(triangle_of(e));
+  }
+  while (boundary_.size() > 2) {
+    std::size_t k = 0;
+    while (k < boundary_.size() && !is_ear(k)) ++k;
+    DELMESHER_CHECK(k < boundary_.size(), "the polygon around a vertex has no ear");
+    const std::size_t following = (k + 1) % boundary_.size();
+    const BoundaryEdge e = boundary_[k], f = boundary_[following];
+    const TriangleId t = free.back();
+    free.pop_back();
+    made.push_back(t);
+    triangles_[t] = {{e.from, e.to, f.to}, {kNone, kNone, kNone}, {f.piece, kNone, e.piece}};
+    link(edge_of(t, 0), f.outer);
+    link(edge_of(t, 2), e.outer);
+    for (const VertexId u : {e.from, e.to, f.to}) around_[u] = t;
+    boundary_[k] = {e.from, f.to, edge_of(t, 1), kNone, t};
+    boundary_.erase(boundary_.begin() + static_cast<std::ptrdiff_t>(following));
+  }
+  // What is left are the two sides of one edge.
+  link(boundary_[0].outer, boundary_[1].outer);
+  set_piece(boundary_[0].outer, boundary_[1].piece);
+  around_[v] = kNone;
+  legalize(made);
+  std::sort(free.begin(), free.end(), std::greater<>());
+  for (const TriangleId t : free) drop(t);
 }
 
 // ---------------------------------------------------------------------------------- checks

@@ -1,5 +1,5 @@
-// A constrained Delaunay triangulation in the plane that only ever grows (Bowyer 1981, Watson 1981,
-// Lawson 1977): locate, insert, enter segments. It covers a rectangle whose corners are its first
+// A constrained Delaunay triangulation in the plane (Bowyer 1981, Watson 1981, Lawson 1977):
+// locate, insert, enter segments, remove. It covers a rectangle whose corners are its first
 // vertices, so that every other point is inside and no case is special but its border.
 //
 // Laws (triangulation_test.cpp, validate()):
@@ -124,6 +124,9 @@ class Triangulation {
   // `chain` are its vertices from a to b. Stops at the first obstacle.
   Obstacle insert_segment(VertexId a, VertexId b, PieceId piece, std::vector<VertexId>& chain);
 
+  // Takes out a vertex at which no edge has a piece. Triangles get other numbers.
+  void remove(VertexId v);
+
   void set_piece(EdgeId e, PieceId piece);
   // Gives the vertex `from` the id `to`, which the triangulation must not have.
   void rename(VertexId from, VertexId to);
@@ -150,6 +153,8 @@ class Triangulation {
   void flip(EdgeId e);
   bool convex(EdgeId e);
   void legalize(std::vector<TriangleId>& stack);
+  bool is_ear(std::size_t k);  // of boundary_, at its edges k and k + 1
+  void drop(TriangleId t);
   Location locate_here(VertexId p, TriangleId t);  // not in t: kNone, an edge that it is beyond
   EdgeId first_crossing(VertexId a, VertexId b, VertexId& on_line, EdgeId& along);
   Obstacle cross(VertexId a, VertexId b, EdgeId first, VertexId& end);

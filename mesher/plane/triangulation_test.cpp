@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "mesher/plane/spatial_order.h"
 
@@ -80,6 +81,54 @@ TEST(Triangulation, UniqueWhateverTheOrder) {
     return result;
   };
   EXPECT_EQ(triangles(first.mesh), triangles(second.mesh));
+}
+
+// What is left is the triangulation of what is left, in rectangles and on grids, where many corners
+// are on one line; also within segments.
+TEST(Triangulation, ForgetsWhatIsRemoved) {
+  for (const bool grid : {false, true}) {
+    for (const bool segments : {false, true}) {
+      Mesh all, rest;
+      std::vector<VertexId> removed;
+      int n = 0;
+      for (const auto& [x, y] : random_points(200, grid, 6)) {
+        const VertexId v = all.insert(x, y);
+        rest.point(x, y);
+        if (n++ % 3 == 0) {
+          removed.push_back(v);
+        } else {
+          rest.mesh.insert(v, 0);
+        }
+      }
+      if (segments) {
+        std::vector<VertexId> chain;
+        for (Mesh* m : {&all, &rest}) {
+          for (const double y : {-3.0, 3.0}) {
+            const VertexId a = m->insert(-3, y), b = m->insert(3, y + 0.5);
+            ASSERT_EQ(m->mesh.insert_segment(a, b, 7, chain).kind,
+                      Triangulation::Obstacle::Kind::none);
+          }
+        }
+      }
+      for (const VertexId v : removed) {
+        all.mesh.remove(v);
+        ASSERT_FALSE(all.mesh.has_vertex(v));
+        ASSERT_NO_THROW(all.mesh.validate(true));
+      }
+      ASSERT_EQ(all.mesh.size(), rest.mesh.size());
+      const auto edges = [](const Triangulation& mesh) {
+        std::set<std::tuple<VertexId, VertexId, PieceId>> result;
+        for (TriangleId t = 0; t < mesh.size(); ++t) {
+          for (int i = 0; i < 3; ++i) {
+            const EdgeId e = edge_of(t, i);
+            result.insert({mesh.origin(e), mesh.target(e), mesh.piece(e)});
+          }
+        }
+        return result;
+      };
+      EXPECT_EQ(edges(all.mesh), edges(rest.mesh)) << grid << segments;
+    }
+  }
 }
 
 TEST(Triangulation, FindsWhatIsThere) {

@@ -1,5 +1,6 @@
 #include "oracles/plane/final.h"
 
+#include <algorithm>
 #include <deque>
 #include <set>
 
@@ -123,8 +124,44 @@ std::vector<std::uint8_t> vertices_of(const PlaneComplex& mesh) {
   return there;
 }
 
+// The edges on segments that were cut off at a vertex of the input and came back.
+class CutOff {
+ public:
+  explicit CutOff(const RecordedPlane& recorded) : recorded_(recorded) {
+    std::vector<PlaneGrid::Box> discs;
+    for (const auto& [edge, segment] : recorded.final.segment_of()) {
+      const auto& [a, b] = edge;
+      const bool at_input = std::min(a, b) < recorded.graph().vertices.size();
+      if (!at_input || segment == kOuterRectangle || recorded.refined.segment_of().contains(edge))
+        continue;
+      edges_.push_back(edge);
+      const auto &p = recorded.points()[a], &q = recorded.points()[b];
+      const double x = (p.dx + q.dx) / 2, y = (p.dy + q.dy) / 2;
+      const double r = recorded.exact.distance(a, b) * 0.51;
+      discs.push_back({{x - r, y - r}, {x + r, y + r}});
+    }
+    grid_ = PlaneGrid(discs);
+  }
+
+  bool encroached_by(Index v) {
+    const auto& p = recorded_.points()[v];
+    bool found = false;
+    grid_.visit({{p.dx, p.dy}, {p.dx, p.dy}}, [&](std::uint32_t e) {
+      found = found || recorded_.exact.encroaches(edges_[e].first, v, edges_[e].second);
+    });
+    return found;
+  }
+
+ private:
+  const RecordedPlane& recorded_;
+  std::vector<PlaneEdge> edges_;
+  PlaneGrid grid_;
+};
+
 void check_vertices(const RecordedPlane& recorded, VerifyReport& report) {
   OracleReport oracle("enrichment", "vertices");
+  CutOff cut_off(recorded);
+  std::uint64_t left_out = 0;
   const auto& points = recorded.points();
   const std::size_t inputs = recorded.graph().vertices.size();
   const auto there = vertices_of(recorded.final), refined = vertices_of(recorded.refined);
@@ -138,13 +175,19 @@ void check_vertices(const RecordedPlane& recorded, VerifyReport& report) {
     if (v < inputs) {
       if (there[v] == 0) oracle.fail("input " + what + " is missing");
     } else if (refined[v] != 0) {
-      if (there[v] == 0 && !places.contains({points[v].dx, points[v].dy})) {
+      if (there[v] != 0 || places.contains({points[v].dx, points[v].dy})) continue;
+      const bool in_a_face =
+          recorded.record.points[v].kind == delmesher::ExactPoint::Kind::explicit_point;
+      if (!recorded.promise.kept_points && in_a_face && cut_off.encroached_by(v)) {
+        ++left_out;
+      } else {
         oracle.fail("refined " + what + " is missing");
       }
     } else if (there[v] != 0) {
       oracle.fail("final " + what + " is neither of the input nor of the refined mesh");
     }
   }
+  if (left_out > 0) oracle.figures.emplace_back("left out", static_cast<double>(left_out));
   report.oracles.push_back(std::move(oracle));
 }
 

@@ -147,7 +147,7 @@ constexpr Option kOptions[] = {
     {"bridges", kMesh, Takes::choice, &Promise::bridges},
     {"order", kMesh, Takes::choice},
     {"steiner-point", kMesh | kPlane, Takes::choice, &Promise::steiner_point},
-    {"kept-points", kMesh, Takes::choice, &Promise::kept_points},
+    {"kept-points", kMesh | kPlane, Takes::choice, &Promise::kept_points},
     {"enrichment", kMesh, Takes::choice, &Promise::enrichment},
     {"filter-pairs", kMesh, Takes::choice, &Promise::filter_pairs},
     {"filter-chamfered", kMesh, Takes::choice, &Promise::filter_chamfered},
@@ -577,6 +577,7 @@ Promise promise_of(const delmesher::PlaneOptions& options) {
   p.acute = options.acute;
   p.approximate = options.approximate;
   p.steiner_point = options.as_paper.steiner_point;
+  p.kept_points = options.as_paper.kept_points;
   p.region = options.region;
   p.chamfer_radius = options.chamfer_radius;
   p.max_edge = options.max_edge;

@@ -40,7 +40,7 @@ struct Promise {
   bool link = false;              // chamfers reach a third of the way to the link
   bool bridges = false;           // a bridge per triangle
   bool steiner_point = false;     // bad tetrahedra are split at their circumcentres
-  bool kept_points = false;       // enriched with the points on artificial segments, too
+  bool kept_points = false;       // enriched with the points beside chamfers, too
   bool enrichment = false;        // always enriched
   bool filter_pairs = false;      // both sides of close pairs dropped
   bool filter_chamfered = false;  // both sides of chamfered features below tau dropped
