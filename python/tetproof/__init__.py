@@ -678,8 +678,10 @@ def label_by_angle(points: Any, triangles: Any = None, *, degrees: float) -> Sur
     ValueError
         There are several labels already, the angle is out of range, or a triangle or a point makes no sense.
 
-    >>> [face.name for face in tetproof.label_by_angle(points, triangles, degrees=30).faces()][:2]
-    ['face_1', 'face_2']
+    >>> points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> surface = tetproof.label_by_angle(points, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], degrees=30)
+    >>> [face.name for face in surface.faces()]
+    ['face_1', 'face_2', 'face_3', 'face_4']
     """
     points = _read_first(points, triangles)
     arrays = _surface(points, triangles, None)
