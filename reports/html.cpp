@@ -400,6 +400,10 @@ std::string to_html(const Page& page, const Selection& selection) {
     facts += "<li><b>" + markup_text(fact.substr(0, space)) + "</b>" +
              whole_words(fact.substr(space)) + "</li>\n";
   }
+  std::string summary;
+  for (const std::string& sentence : page.summary) {
+    summary += (summary.empty() ? "" : " ") + whole_words(sentence);
+  }
   std::vector<std::string> warnings = page.warnings;
   if (!page.has_charts) {
     warnings.emplace_back("No charts: this build lacks Chart.js (Debian: libjs-chart.js).");
@@ -417,10 +421,10 @@ std::string to_html(const Page& page, const Selection& selection) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<nav>\n{}</nav>\n"
-      "<header><h1>{}</h1>\n<ul class=\"headline\">\n{}</ul>\n{}"
+      "<header><h1>{}</h1>\n<p class=\"summary\">{}</p>\n<ul class=\"headline\">\n{}</ul>\n{}"
       "<p class=\"not-ok\" id=\"trouble\" hidden></p></header>\n<main>\n{}{}</main>\n",
-      markup_text(page.title), assets::page_css(), nav, markup_text(page.title), facts, said, body,
-      notes_list(page.notes));
+      markup_text(page.title), assets::page_css(), nav, markup_text(page.title), summary, facts,
+      said, body, notes_list(page.notes));
   for (const ViewPart& part : page.views) {
     text += "<script type=\"application/json\" class=\"part\">" + for_script(to_json(part)) +
             "</script>\n";

@@ -22,6 +22,7 @@ struct Section {
 
 struct Page {
   std::string title;
+  std::vector<std::string> summary;   // what was run, and who is best at what, in sentences
   std::vector<std::string> headline;  // short facts, each "number words"
   std::vector<std::string> warnings;  // below it, in sentences
   std::vector<Section> sections;

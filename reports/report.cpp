@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 #include "reports/assets.h"
@@ -12,6 +13,7 @@
 #include "reports/fidelity.h"
 #include "reports/figures.h"
 #include "reports/html.h"
+#include "reports/statistics.h"
 #include "reports/tables.h"
 
 namespace tetproof {
@@ -86,10 +88,6 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
         {history_table(options.history), history_changes(options.history)},
         {history_size_chart(options.history), history_time_chart(options.history)});
   }
-  add("tables", "Tables 1 and 2",
-      "Laid out as the paper's Tables 1 and 2, with every mesher of this campaign on its models.",
-      {table_1(selection), table_2(selection)}, {})
-      .side_by_side = true;
   add("league", "League",
       "Every mesher on every model, judged by the same oracles; the most successful first.",
       {league_table(selection), family_table(selection, families), solver_table(selection)},
@@ -112,6 +110,10 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       {speed_table(selection), time_table(selection), phase_table(selection)},
       {time_chart(selection), speed_chart(selection), phase_chart(selection)});
   add("compare", "Comparison of two", "", {pairing_table(selection)}, {});
+  add("tables", "Tables 1 and 2",
+      "Laid out as the paper's Tables 1 and 2, with every mesher of this campaign on its models.",
+      {table_1(selection), table_2(selection)}, {})
+      .side_by_side = true;
   add("table3", "One model (after Table 3 and Figure 13)", "", {table_3(selection, model)},
       model.empty() ? std::vector<Chart>() : angle_charts(selection, model));
   add("more", "Table 2, other ways", "", {table_2_all(selection), table_2_inside(selection)}, {})
@@ -144,6 +146,85 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
     return section.tables.empty() && section.charts.empty();
   });
   return sections;
+}
+
+// "a", "a and b", "a, b and c"
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  }
+  return text;
+}
+
+// The meshers whose value is the largest one.
+struct Best {
+  std::vector<std::string> meshers;
+  double value = 0;
+
+  void add(const std::string& mesher, double of_mesher) {
+    if (of_mesher > value || meshers.empty()) meshers.clear();
+    if (meshers.empty()) value = of_mesher;
+    if (of_mesher == value) meshers.push_back(mesher);
+  }
+};
+
+// When, where and with what was run; who is best at what; which paper is meant.
+std::vector<std::string> summary_of(const Selection& selection) {
+  std::set<std::string> dates, hosts;
+  std::vector<std::string> versions;
+  Best most, roundest, fastest;
+  const std::vector<std::string> common = selection.common_models(selection.meshers);
+  for (const std::string& mesher : selection.meshers) {
+    std::set<std::string> of_mesher;
+    for (const auto& [model, row] : selection.runs.at(mesher)) {
+      if (!row.started.empty()) dates.insert(row.started.substr(0, 10));
+      if (!row.host.empty()) hosts.insert(row.host);
+      if (!row.key.version.empty()) of_mesher.insert(row.key.version);
+    }
+    versions.push_back(mesher);
+    for (const std::string& version : of_mesher) versions.back() += " " + version;
+    most.add(mesher, static_cast<double>(selection.ok_runs(mesher).size()));
+    std::vector<double> angles, seconds;
+    for (const std::string& model : common) {
+      const RunRow& row = *selection.ok_run(mesher, model);
+      angles.push_back((row.inside ? *row.inside : *row.mesh).min_dihedral);
+      seconds.push_back(row.wall_seconds);
+    }
+    if (common.empty()) continue;
+    roundest.add(mesher, *median(angles));
+    fastest.add(mesher, -*median(seconds));
+  }
+  std::vector<std::string> summary = {fmt::format("{} models, {} meshers ({})",
+                                                  selection.models.size(), selection.meshers.size(),
+                                                  listed(versions))};
+  if (!dates.empty()) {
+    summary[0] +=
+        ", run " + (dates.size() == 1 ? "on " + *dates.begin()
+                                      : "from " + *dates.begin() + " to " + *dates.rbegin());
+  }
+  if (!hosts.empty()) summary[0] += ", on " + listed({hosts.begin(), hosts.end()});
+  summary[0] += ".";
+  if (!most.meshers.empty()) {
+    summary.push_back(
+        fmt::format("The most meshes, by the oracles' verdict, are of {}: {:.0f} of {} models.",
+                    listed(most.meshers), most.value, selection.models.size()));
+  }
+  const std::string where = fmt::format(" (median of the {} {} on which all succeed)",
+                                        common.size(), common.size() == 1 ? "model" : "models");
+  if (roundest.value > 0) {
+    summary.push_back(
+        fmt::format("The largest smallest dihedral angles inside are of {}: {:.3g} degrees{}.",
+                    listed(roundest.meshers), roundest.value, where));
+  }
+  if (fastest.value < 0) {
+    summary.push_back(fmt::format("The fastest is {}: {:.2g} s{}.", listed(fastest.meshers),
+                                  -fastest.value, where));
+  }
+  summary.emplace_back(
+      "\"The paper\" is Diazzi, Dai, Panozzo, Attene: Surface chamfering for robust tetrahedral "
+      "meshing, ACM Transactions on Graphics 45(4), 146 (2026).");
+  return summary;
 }
 
 std::vector<std::string> headline_of(const Selection& selection) {
@@ -192,6 +273,7 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
   const std::string model = table_3_model(selection, options.model);
   Page page;
   page.title = "Meshing campaign";
+  page.summary = summary_of(selection);
   page.headline = headline_of(selection);
   page.sections = sections_of(selection, model, options);
   page.notes = {
@@ -203,8 +285,9 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
   if (page.has_pictures) page.views = collect_views(selection, options.views, page.notes);
 
   std::filesystem::create_directories(folder);
-  std::string summary = fmt::format("{} models, {} meshers; successes of runs:\n\n",
-                                    selection.models.size(), selection.meshers.size());
+  std::string summary;
+  for (const std::string& sentence : page.summary) summary += sentence + "\n";
+  summary += "\nSuccesses of runs:\n\n";
   for (const std::string& mesher : selection.meshers) {
     summary += fmt::format("- {}: {}\n", mesher, successes_of(selection, mesher));
   }

@@ -384,17 +384,44 @@ TEST(Page, CommandsFoldAndNamesStayWhole) {
             std::string::npos);
 }
 
-TEST_F(ReportFolder, TablesAndHistogramsComeFirst) {
+TEST_F(ReportFolder, TheLeagueComesFirstAndThePapersTablesLater) {
   write_report(campaign(), folder_);
   const std::string page = text("report.html");
-  const auto one = page.find("Table 1: "), two = page.find("Table 2: ");
-  const auto histogram = page.find("class=\"frame\"");
-  ASSERT_NE(histogram, std::string::npos);
-  EXPECT_LT(one, two);
-  EXPECT_LT(two, histogram);
-  for (const char* later : {"id=\"success\"", "id=\"fidelity\"", "id=\"models\""}) {
-    EXPECT_LT(histogram, page.find(later)) << later;
+  std::size_t before = 0;
+  for (const char* id : {"league", "figures", "success", "speed", "tables", "fidelity"}) {
+    const std::size_t at = page.find("id=\"" + std::string(id) + "\"");
+    ASSERT_NE(at, std::string::npos) << id;
+    EXPECT_LT(before, at) << id;
+    before = at;
   }
+  EXPECT_LT(page.find("Table 1: "), page.find("Table 2: "));
+  EXPECT_LT(page.find("class=\"frame\""), page.find("id=\"models\""));
+}
+
+// Of five meshers on three models: who makes most meshes, and on the model of all of them who is
+// fastest.
+TEST_F(ReportFolder, OpensWithWhatWasRunAndWhoIsBest) {
+  Selection selection = campaign();
+  for (auto& [mesher, runs] : selection.runs) {
+    for (auto& [model, row] : runs) {
+      row.host = "box";
+      if (model == "hash-c") row.started = "2026-01-03T00:00:00Z";
+      if (row.mesh) row.mesh->min_dihedral = mesher == "tetgen" ? 12 : 9;
+      if (row.inside) row.inside->min_dihedral = mesher == "tetgen" ? 12 : 9;
+    }
+  }
+  const std::string headline = write_report(selection, folder_).headline;
+  for (const char* sentence :
+       {"3 models, 5 meshers (", "tetgen 1", ", run from 2026-01-01 to 2026-01-03, on box.\n",
+        "are of cdt and safe-delmesher-e4: 3 of 3 models.\n",
+        "inside are of tetgen: 12 degrees (median of the 1 model on which all succeed).\n",
+        "The fastest is cdt: 0.005 s", "Diazzi, Dai, Panozzo, Attene"}) {
+    EXPECT_NE(headline.find(sentence), std::string::npos) << sentence << '\n' << headline;
+  }
+  const std::string page = text("report.html");
+  const auto header = page.find("<header>");
+  EXPECT_NE(page.substr(header, page.find("<main>") - header).find("The fastest is"),
+            std::string::npos);
 }
 
 TEST_F(ReportFolder, EveryTableAndFigureIsAFileToo) {
