@@ -183,7 +183,10 @@ std::vector<std::string> summary_of(const Selection& selection) {
       if (!row.key.version.empty()) of_mesher.insert(row.key.version);
     }
     versions.push_back(mesher);
-    for (const std::string& version : of_mesher) versions.back() += " " + version;
+    for (const std::string& version : of_mesher) {
+      if (version.starts_with(mesher + " ")) versions.back().clear();  // it says whose it is
+      versions.back() += (versions.back().empty() ? "" : " ") + version;
+    }
     most.add(mesher, static_cast<double>(selection.ok_runs(mesher).size()));
     std::vector<double> angles, seconds;
     for (const std::string& model : common) {

@@ -405,6 +405,7 @@ TEST_F(ReportFolder, OpensWithWhatWasRunAndWhoIsBest) {
   for (auto& [mesher, runs] : selection.runs) {
     for (auto& [model, row] : runs) {
       row.host = "box";
+      if (mesher == "tetgen") row.key.version = "tetgen 1.6";
       if (model == "hash-c") row.started = "2026-01-03T00:00:00Z";
       if (row.mesh) row.mesh->min_dihedral = mesher == "tetgen" ? 12 : 9;
       if (row.inside) row.inside->min_dihedral = mesher == "tetgen" ? 12 : 9;
@@ -412,7 +413,8 @@ TEST_F(ReportFolder, OpensWithWhatWasRunAndWhoIsBest) {
   }
   const std::string headline = write_report(selection, folder_).headline;
   for (const char* sentence :
-       {"3 models, 5 meshers (", "tetgen 1", ", run from 2026-01-01 to 2026-01-03, on box.\n",
+       {"3 models, 5 meshers (", ", tetgen 1.6, cdt 1,",
+        ", run from 2026-01-01 to 2026-01-03, on box.\n",
         "are of cdt and safe-delmesher-e4: 3 of 3 models.\n",
         "inside are of tetgen: 12 degrees (median of the 1 model on which all succeed).\n",
         "The fastest is cdt: 0.005 s", "Diazzi, Dai, Panozzo, Attene"}) {
