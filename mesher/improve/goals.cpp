@@ -21,7 +21,8 @@ Goals goals_of(const ImproveOptions& options) {
           .max_edge = options.max_edge,
           .sizes = options.sizes != nullptr && !options.sizes->empty() ? options.sizes : nullptr,
           .as_given = options.as_given,
-          .everywhere = options.region == Region::hull};
+          .everywhere = options.region == Region::hull,
+          .nearly_good = options.keep_surface ? 0.8F : 0.6F};
 }
 
 }  // namespace delmesher::improve

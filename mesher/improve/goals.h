@@ -16,6 +16,7 @@ struct Goals {
   const SizeField* sizes = nullptr;  // nor than these allow; null: any
   bool as_given = false;             // tetrahedra are positive on the surface as given, too
   bool everywhere = false;           // tetrahedra outside count as well
+  float nearly_good = 0.6F;          // the score that is enough where something else is gained
 };
 
 Goals goals_of(const ImproveOptions& options);

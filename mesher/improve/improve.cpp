@@ -7,6 +7,7 @@
 #include "mesher/improve/collapse.h"
 #include "mesher/improve/edge_removal.h"
 #include "mesher/improve/face_removal.h"
+#include "mesher/improve/filling.h"
 #include "mesher/improve/insertion.h"
 #include "mesher/improve/relocation.h"
 #include "mesher/improve/smoothing.h"
@@ -18,11 +19,12 @@ namespace {
 
 class Improvement {
  public:
-  Improvement(State& state, const SurfaceTopology* topology, const Sparing& sparing,
+  Improvement(State& state, const SurfaceTopology* topology, const ImproveOptions& options,
               Control& control)
       : state_(state),
         topology_(topology),
-        sparing_(sparing),
+        options_(options),
+        goals_(goals_of(options)),
         control_(control),
         edges_(state),
         faces_(state),
@@ -35,6 +37,10 @@ class Improvement {
   // Vertices that are not needed go first; then less is left to repair. Points are put in when
   // everything else has been tried.
   void run() {
+    if (options_.keep_surface) {
+      clear_surface();
+      Filling(state_, goals_, control_).run();
+    }
     begin(0.1);
     coarsen();
     begin(0.25);
@@ -54,9 +60,16 @@ class Improvement {
     begin(0.03);
     repair();
     mend();
+    if (options_.keep_surface) clear_rest();
   }
 
   std::uint64_t spared() const { return spared_; }
+  // Vertices on the surface that are not of the input.
+  std::uint64_t left() const {
+    std::uint64_t left = 0;
+    for (VertexId v = 0; v < state_.mesh.vertices(); ++v) left += is_to_leave(v) ? 1 : 0;
+    return left;
+  }
 
  private:
   // The score below which tetrahedra are tried in one pass: later ones take as long, but bring
@@ -116,7 +129,7 @@ class Improvement {
   // to stay in the volume, where other vertices can replace them.
   void spare() {
     constexpr std::size_t kLeastGain = 128;  // one tetrahedron in so many
-    if (sparing_.edges.empty()) return;
+    if (options_.sparing.edges.empty()) return;
     for (const float score : {0.1F, 0.01F}) spare(score, false);
     for (const bool into_volume : {false, true}) {
       std::size_t before = 0;
@@ -140,12 +153,12 @@ class Improvement {
     coarsen();
     repair(kNotGood);
   }
-  bool is_too_much() const { return state_.mesh.tetrahedra() > sparing_.tetrahedra; }
+  bool is_too_much() const { return state_.mesh.tetrahedra() > options_.sparing.tetrahedra; }
   bool is_to_be_spared(VertexId v) const {
     if (state_.mobility(v) != Mobility::on_line) return false;
     const PointDefinition d = state_.points().definition(state_.point(v));
     const std::uint32_t edge = edge_between(*topology_, d.corner[0], d.corner[1]);
-    return edge != kNone && sparing_.edges[edge] != 0;
+    return edge != kNone && options_.sparing.edges[edge] != 0;
   }
 
   // Moves vertices to where tetrahedra are rounder on average.
@@ -214,9 +227,47 @@ class Improvement {
   void mend() {
     mending_ = true;
     state_.measure_by(Measure::dihedrals);
-    for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
+    forget_failures();
     begin(0);
     repair();
+  }
+  void forget_failures() {
+    for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
+  }
+
+  // Steiner points leave the edges of the surface: along the edge if all tetrahedra stay positive,
+  // else into the volume. What went may make room for the next one.
+  void clear_surface(bool fine = false) {
+    state_.bound_edges(false);
+    for (bool any = true; any;) {
+      any = false;
+      const auto limit = static_cast<VertexId>(state_.mesh.vertices());
+      for (VertexId v = 0; v < limit; ++v) {
+        poll(0);
+        if (!is_to_leave(v)) continue;
+        if (collapse_.run(v, state_.to_reach(0)) || relocation_.run(v, fine)) any = true;
+      }
+    }
+    state_.bound_edges(true);
+    validate();
+  }
+  bool is_to_leave(VertexId v) const {
+    return state_.mesh.incident(v) != kNone && state_.mobility(v) != Mobility::free &&
+           !state_.points().is_corner(state_.point(v));
+  }
+
+  // Points on the surface that flat tetrahedra have kept there so far, and what they leave behind.
+  void clear_rest() {
+    constexpr int kMostRounds = 4;
+    for (int round = 0; round < kMostRounds && left() > 0; ++round) {
+      mending_ = false;
+      state_.measure_by(Measure::shape);
+      forget_failures();
+      clear_surface(round > 0);
+      repair(kNotGood);
+      coarsen();
+      mend();
+    }
   }
 
   bool is_to_be_tried(TetId t, float limit) const {
@@ -254,7 +305,7 @@ class Improvement {
       if (!in_rounds_ && !mending_ && collapse(v)) return true;
     }
     return (insert_ && !in_rounds_ && insertion_.run(t)) ||
-           (mending_ && insertion_.run_on_surface(t));
+           (mending_ && !options_.keep_surface && insertion_.run_on_surface(t));
   }
 
   // From the other side, and neither side has changed since.
@@ -286,7 +337,8 @@ class Improvement {
 
   State& state_;
   const SurfaceTopology* topology_;
-  const Sparing& sparing_;
+  const ImproveOptions& options_;
+  const Goals goals_;
   Control& control_;
   EdgeRemoval edges_;
   FaceRemoval faces_;
@@ -321,9 +373,10 @@ ImproveResult improve(ConformingMesh mesh, const SurfaceTopology* topology,
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
   State state(topology_of(std::move(mesh), point, points.size()), point, topology, given, points,
               predicates, goals_of(options));
-  Improvement improvement(state, topology, options.sparing, control);
+  Improvement improvement(state, topology, options, control);
   improvement.run();
   result.spared = improvement.spared();
+  if (options.keep_surface) result.left = improvement.left();
   for (VertexId v = 0; v < point.size(); ++v) {
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);
   }

@@ -34,6 +34,9 @@ struct ImproveOptions {
   Region region = Region::interior;  // which tetrahedra are to be good
   bool as_given = false;  // of a stand-in: new tetrahedra are positive on the surface as given, too
   Sparing sparing = {};
+  // No vertex is added to the surface, those that are not of the input leave it, and the volume is
+  // filled with points (filling.h).
+  bool keep_surface = false;
 };
 
 struct ImproveResult {
@@ -41,6 +44,7 @@ struct ImproveResult {
   bool changed = false;
   std::vector<VertexId> became;  // per point of the store before: its point now, kNone if gone
   std::uint64_t spared = 0;      // points that left their edges by Sparing
+  std::uint64_t left = 0;        // on the surface, if it was to be kept, that are not of the input
 };
 
 // `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.

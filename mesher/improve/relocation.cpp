@@ -13,8 +13,12 @@ int corner_of_point(const CreatedTet& tet) {
 
 }  // namespace
 
-bool Relocation::run(VertexId v) {
-  if (state_.mobility(v) != Mobility::on_line) return false;
+bool Relocation::run(VertexId v, bool fine) {
+  const Mobility mobility = state_.mobility(v);
+  if (mobility == Mobility::free || mobility == Mobility::in_plane ||
+      state_.points().is_corner(state_.point(v))) {
+    return false;
+  }
   v_ = v;
   state_.mesh.star(v, star_);
   if (!find_faces()) return false;
@@ -28,7 +32,7 @@ bool Relocation::run(VertexId v) {
   if (other == old_faces_.end() || !tile(first) || !tile(facet_of(*other))) return false;
   find_created();
   Vec3 x{};
-  if (!find_place(x)) return false;
+  if (!find_place(fine, x)) return false;
   const Place place = state_.new_place(x, norm(subtract(x, state_.position(v))) * State::kGrid);
   if (!fits(place)) {
     state_.forget(place);
@@ -139,8 +143,8 @@ void Relocation::find_created() {
   }
 }
 
-bool Relocation::find_place(Vec3& best) const {
-  constexpr int kHalvings = 24;  // of the longest edge at v
+bool Relocation::find_place(bool fine, Vec3& best) const {
+  constexpr int kHalvings = 24, kFineHalvings = 50;  // of the longest edge at v
   Vec3 centre{};
   double longest = 0, count = 0;
   const Vec3 &at = state_.position(v_), direction = inwards();
@@ -155,7 +159,10 @@ bool Relocation::find_place(Vec3& best) const {
   for (double& x : centre) x /= count;
   float score = 0;
   double step = 1;
-  for (int n = 0; n < kHalvings; ++n, step /= 2) {
+  const auto goes_on = [&](int n) {
+    return n < kHalvings || (fine && score == 0 && n < kFineHalvings);
+  };
+  for (int n = 0; goes_on(n); ++n, step /= 2) {
     for (const Vec3& x :
          {add_scaled(at, step * longest, direction), add_scaled(at, step, centre)}) {
       const float here = worst_at(x);

@@ -14,10 +14,11 @@ class Relocation {
  public:
   explicit Relocation(State& state) : state_(state) {}
 
-  // v is on an edge of the surface (Mobility::on_line), with nothing beyond its faces. The point
+  // v is on an edge of the surface and no corner of it, with nothing beyond its faces. The point
   // goes to where the worst tetrahedron at it is best; what matters is that all are positive.
-  // False, and nothing changes, if none is found.
-  bool run(VertexId v);
+  // `fine`: also to where it is all but on the surface. False, and nothing changes, if no place is
+  // found.
+  bool run(VertexId v, bool fine = false);
 
  private:
   // A face of the surface at v, or a new one: counter-clockwise seen from outside.
@@ -34,7 +35,7 @@ class Relocation {
   std::size_t best_ear(const std::vector<VertexId>& polygon, const Vec3& normal) const;
   Vec3 inwards() const;
   void find_created();
-  bool find_place(Vec3& best) const;
+  bool find_place(bool fine, Vec3& best) const;
   float worst_at(const Vec3& x) const;
   bool fits(const Place& place);
 

@@ -96,7 +96,7 @@ class State final : public ExactMesh {
     return at_least(std::max(least_score_, (now < kBad ? kLeastGain : kGain) * now), before);
   }
   Quality to_be_acceptable(const Quality& before) const {
-    return at_least(std::max(least_score_, std::min(kNearlyGood, score(before))), before);
+    return at_least(std::max(least_score_, std::min(goals_.nearly_good, score(before))), before);
   }
   // The least quality with this score.
   Quality to_reach(float score) const {
@@ -112,8 +112,11 @@ class State final : public ExactMesh {
     return best_apex(position_[v[kFace[i][0]]], position_[v[kFace[i][1]]],
                      position_[v[kFace[i][2]]]);
   }
-  // Is an edge between these longer than wanted? Edges that exist may stay.
+  // Is an edge between these longer than wanted? Edges that exist may stay, and those that the
+  // input has come back however long they are.
+  void bound_edges(bool bound) { edges_are_bounded_ = bound; }
   bool too_long(const Vec3& x, const Vec3& y) const {
+    if (!edges_are_bounded_) return false;
     return (goals_.max_edge > 0 &&
             squared_norm(subtract(y, x)) > goals_.max_edge * goals_.max_edge) ||
            (goals_.sizes != nullptr && goals_.sizes->is_too_long(x, y));
@@ -127,7 +130,6 @@ class State final : public ExactMesh {
  private:
   // A change has to be worth it: many small steps cost time and bring little. Only bad tetrahedra
   // may become better by small steps.
-  static constexpr float kNearlyGood = 0.6F;
   static constexpr float kGain = 1.1F, kLeastGain = 1.01F;
 
   Quality at_least(float score, const Quality& before) const {
@@ -138,6 +140,7 @@ class State final : public ExactMesh {
   void note(TetId t) override;
 
   Goals goals_;
+  bool edges_are_bounded_ = true;
   Measure measure_ = Measure::shape;
   Quality target_, per_target_;              // of what is measured
   float least_score_ = 0, least_gamma_ = 0;  // of what a change makes

@@ -208,6 +208,28 @@ SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predi
   return Builder(surface, points, predicates).build();
 }
 
+SurfaceTopology with_facet_per_triangle(const SurfaceTopology& topology) {
+  SurfaceTopology result = topology;
+  const auto of_facet = [&](const auto& values) {
+    std::decay_t<decltype(values)> per_triangle;
+    for (const FacetId f : topology.facet_of) per_triangle.push_back(values[f]);
+    return per_triangle;
+  };
+  result.facet_plane = of_facet(topology.facet_plane);
+  result.facet_axis = of_facet(topology.facet_axis);
+  result.facet_axis_sign = of_facet(topology.facet_axis_sign);
+  result.facet_triangles.clear();
+  for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
+    result.facet_of[t] = t;
+    result.facet_triangles.push_back({t});
+  }
+  for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
+    if (topology.edge_is_flat[e] != 0) result.edge_line[e] = e;
+  }
+  result.edge_is_flat.assign(topology.edge_count(), 0);
+  return result;
+}
+
 std::vector<PlaneId> SurfaceTopology::edge_planes(std::uint32_t e) const {
   std::vector<PlaneId> planes;
   for (const std::uint32_t h : edge_half_edges(e)) {

@@ -62,6 +62,10 @@ struct SurfaceTopology {
 // where they are.
 SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates);
 
+// The same surface with a facet of its own for every triangle, so that all edges are constrained.
+// Planes and lines keep their numbers.
+SurfaceTopology with_facet_per_triangle(const SurfaceTopology& topology);
+
 // The undirected edge between two vertices; kNone if there is none.
 std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b);
 

@@ -106,6 +106,23 @@ TEST(Topology, LabelsSeparateCoplanarFacets) {
             13);
 }
 
+TEST(Topology, AFacetPerTriangleConstrainsAllEdges) {
+  const Built built(box({0, 0, 0}, {1, 2, 3}, 2));
+  const SurfaceTopology& s = built.topology;
+  const SurfaceTopology each = with_facet_per_triangle(s);
+  ASSERT_EQ(each.facet_triangles.size(), s.triangles.size());
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    EXPECT_EQ(each.facet_triangles[each.facet_of[t]], std::vector<std::uint32_t>{t});
+    EXPECT_EQ(each.facet_plane[each.facet_of[t]], s.facet_plane[s.facet_of[t]]);
+    EXPECT_EQ(each.facet_axis[each.facet_of[t]], s.facet_axis[s.facet_of[t]]);
+    EXPECT_EQ(each.facet_axis_sign[each.facet_of[t]], s.facet_axis_sign[s.facet_of[t]]);
+  }
+  for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+    EXPECT_EQ(each.edge_is_flat[e], 0);
+    EXPECT_EQ(each.edge_line[e], s.edge_is_flat[e] != 0 ? e : s.edge_line[e]);
+  }
+}
+
 TEST(Topology, NearlyCoplanarIsNotCoplanar) {
   Surface s = box({0, 0, 0}, {1, 1, 1});
   s.vertices[2][0] += 0x1p-52;  // some corner: at least one of its three squares is bent

@@ -1,0 +1,305 @@
+#include "mesher/improve/filling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesher/base/epoch.h"
+#include "mesher/predicates/signs_of_doubles.h"
+
+namespace delmesher::improve {
+namespace {
+
+// How much larger a size may be per distance.
+constexpr double kGrowth = 0.6;
+// In sizes. The circumradius of a regular tetrahedron is 0.61 of its edges.
+constexpr double kClearance = 0.6, kFacetClearance = 0.3;
+// Tetrahedra with circumradii of 0.6 have few edges longer than 1.
+constexpr double kOfLongest = 0.6;
+// A cube whose edges are the size takes about 1.5 points.
+constexpr double kMostPoints = 16;
+
+}  // namespace
+
+Filling::Filling(State& state, const Goals& goals, Control& control)
+    : state_(state), goals_(goals), control_(control), version_(state.mesh.slots(), 0) {
+  find_sizes();
+  bound_points();
+}
+
+void Filling::find_sizes() {
+  const MeshTopology& mesh = state_.mesh;
+  size_.assign(mesh.vertices(), 0);
+  std::vector<std::uint32_t> edges(mesh.vertices(), 0);
+  for (TetId t = 0; t < mesh.slots(); ++t) {
+    if (!mesh.alive(t) || !state_.counts(t)) continue;
+    for (int i = 0; i < 4; ++i) {
+      if (mesh.facet(t, i) == kNone) continue;
+      for (int k = 0; k < 3; ++k) {
+        const VertexId a = mesh.tet(t)[kFace[i][k]], b = mesh.tet(t)[kFace[i][(k + 1) % 3]];
+        const double length = distance(state_.position(a), state_.position(b));
+        for (const VertexId v : {a, b}) {
+          size_[v] += length;
+          ++edges[v];
+        }
+      }
+    }
+  }
+  std::priority_queue<std::pair<double, VertexId>> from;  // the smallest size first
+  for (VertexId v = 0; v < size_.size(); ++v) {
+    const double mean = edges[v] > 0 ? size_[v] / edges[v] : HUGE_VAL;
+    size_[v] = std::min(mean, allowed_at(state_.position(v)));
+    if (edges[v] > 0) from.emplace(-size_[v], v);
+  }
+  // Vertices inside that are there already: as for new ones.
+  while (!from.empty()) {
+    const auto [size, v] = from.top();
+    from.pop();
+    if (-size != size_[v]) continue;
+    mesh.star(v, work_);
+    for (const TetId t : work_) {
+      for (const VertexId w : mesh.tet(t)) {
+        const double grown = size_[v] + kGrowth * distance(state_.position(v), state_.position(w));
+        if (edges[w] > 0 || grown >= size_[w]) continue;
+        size_[w] = grown;
+        from.emplace(-grown, w);
+      }
+    }
+  }
+}
+
+double Filling::allowed_at(const Vec3& x) const {
+  double longest = goals_.max_edge > 0 ? goals_.max_edge : HUGE_VAL;
+  if (goals_.sizes != nullptr) longest = std::min(longest, goals_.sizes->at(x));
+  return kOfLongest * longest;
+}
+
+void Filling::bound_points() {
+  const MeshTopology& mesh = state_.mesh;
+  double sizes = 0;
+  for (TetId t = 0; t < mesh.slots(); ++t) {
+    if (!mesh.alive(t) || !state_.counts(t)) continue;
+    const Tet& v = mesh.tet(t);
+    double least = HUGE_VAL;
+    for (const VertexId w : v) least = std::min(least, size_[w]);
+    const Vec3& a = state_.position(v[0]);
+    const double volume =
+        dot(cross(subtract(state_.position(v[1]), a), subtract(state_.position(v[2]), a)),
+            subtract(state_.position(v[3]), a)) /
+        6;
+    sizes += 1 + std::fabs(volume) / (least * least * least);
+  }
+  most_points_ = kMostPoints * sizes;
+}
+
+double Filling::mean_size(TetId t) const {
+  double sum = 0;
+  for (const VertexId v : state_.mesh.tet(t)) sum += size_[v];
+  return sum / 4;
+}
+
+Filling::Circumcentre Filling::circumcentre(TetId t) const {
+  const Tet& v = state_.mesh.tet(t);
+  const Vec3& a = state_.position(v[0]);
+  const Vec3 b = subtract(state_.position(v[1]), a), c = subtract(state_.position(v[2]), a),
+             d = subtract(state_.position(v[3]), a);
+  const Vec3 cd = cross(c, d), db = cross(d, b), bc = cross(b, c);
+  const double volume = dot(b, cd);
+  if (!(volume > 0)) return {};
+  const double bb = dot(b, b), cc = dot(c, c), dd = dot(d, d);
+  Circumcentre result;
+  for (int k = 0; k < 3; ++k) {
+    result.from_first[k] = (bb * cd[k] + cc * db[k] + dd * bc[k]) / (2 * volume);
+  }
+  result.squared_radius = dot(result.from_first, result.from_first);
+  return result;
+}
+
+// Queues t if it is too large.
+void Filling::note(TetId t) {
+  version_.resize(state_.mesh.slots(), 0);
+  ++version_[t];
+  if (!state_.counts(t)) return;
+  const double size = mean_size(t);
+  const double ratio = circumcentre(t).squared_radius / (size * size);
+  if (ratio > 1 && std::isfinite(ratio)) queue_.push({ratio, t, version_[t]});
+}
+
+// The tetrahedron that x is in, by a walk from t; kNone if it meets the surface.
+TetId Filling::locate(TetId t, const Vec3& x) const {
+  constexpr int kMostSteps = 1000;
+  const MeshTopology& mesh = state_.mesh;
+  TetId from = kNone;
+  for (int step = 0; step < kMostSteps; ++step) {
+    int out = 0;
+    while (out < 4 && ((from != kNone && mesh.neighbor(t, out) == from) || sees(t, out, x))) ++out;
+    if (out == 4) return t;
+    if (mesh.facet(t, out) != kNone) return kNone;
+    from = t;
+    t = mesh.neighbor(t, out);
+    if (t == kNone) return kNone;
+  }
+  return kNone;
+}
+
+// Is x on the inner side of face i of t, or in its plane?
+bool Filling::sees(TetId t, int i, const Vec3& x) const {
+  const Tet& v = state_.mesh.tet(t);
+  const auto at = [&](int k) -> const Vec3& { return k == i ? x : state_.position(v[k]); };
+  return orient3d_sign(at(0), at(1), at(2), at(3)) >= 0;
+}
+
+bool Filling::is_in_ball(TetId t, const Vec3& x) const {
+  const Circumcentre c = circumcentre(t);
+  const Vec3 y = subtract(x, state_.position(state_.mesh.tet(t)[0]));
+  return c.squared_radius == 0 || dot(y, y) < 2 * dot(c.from_first, y);
+}
+
+// Is the tetrahedron beyond face i of t in the cavity, with no facet between?
+bool Filling::is_open(TetId t, int i) const {
+  const TetId u = state_.mesh.neighbor(t, i);
+  return u != kNone && mark_[u] == epoch_ && state_.mesh.facet(t, i) == kNone;
+}
+
+// The cavity becomes what hangs together with `start`, with no facet between, of the tetrahedra
+// that belong to it.
+template <class Belongs>
+void Filling::collect(TetId start, const Belongs& belongs) {
+  const MeshTopology& mesh = state_.mesh;
+  next_epoch(epoch_, mark_);
+  mark_[start] = epoch_;
+  cavity_.assign(1, start);
+  for (std::size_t n = 0; n < cavity_.size(); ++n) {
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = mesh.neighbor(cavity_[n], i);
+      if (u == kNone || mark_[u] == epoch_ || mesh.facet(cavity_[n], i) != kNone || !belongs(u)) {
+        continue;
+      }
+      mark_[u] = epoch_;
+      cavity_.push_back(u);
+    }
+  }
+}
+
+// The tetrahedra with x in their circumsphere.
+void Filling::grow(TetId start, const Vec3& x) {
+  mark_.resize(state_.mesh.slots(), 0);
+  collect(start, [&](TetId u) { return is_in_ball(u, x); });
+}
+
+// Takes tetrahedra out of the cavity until x sees all of its skin from inside. False if `start`
+// would have to go.
+bool Filling::cut_back(TetId start, const Vec3& x) {
+  const MeshTopology& mesh = state_.mesh;
+  work_ = cavity_;
+  bool any = false;
+  for (std::size_t n = 0; n < work_.size(); ++n) {
+    const TetId t = work_[n];
+    if (mark_[t] != epoch_) continue;
+    const auto is_hidden = [&](int i) { return !is_open(t, i) && !sees(t, i, x); };
+    if (!is_hidden(0) && !is_hidden(1) && !is_hidden(2) && !is_hidden(3)) continue;
+    if (t == start) return false;
+    mark_[t] = 0;
+    any = true;
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = mesh.neighbor(t, i);
+      if (u != kNone && mark_[u] == epoch_ && mesh.facet(t, i) == kNone) work_.push_back(u);
+    }
+  }
+  // What hangs together with `start` is star-shaped as well: a face on its skin is on the skin of
+  // the whole.
+  const std::uint32_t before = epoch_;
+  if (any) collect(start, [&](TetId u) { return mark_[u] == before; });
+  return true;
+}
+
+double Filling::size_at(const Vec3& x) const {
+  double size = allowed_at(x);
+  for (const TetId t : cavity_) {
+    for (const VertexId v : state_.mesh.tet(t)) {
+      size = std::min(size, size_[v] + kGrowth * distance(x, state_.position(v)));
+    }
+  }
+  return size;
+}
+
+bool Filling::has_room(const Vec3& x, double size) const {
+  const MeshTopology& mesh = state_.mesh;
+  const double least = kClearance * size;
+  for (const TetId t : cavity_) {
+    for (const VertexId v : mesh.tet(t)) {
+      if (squared_norm(subtract(x, state_.position(v))) < least * least) return false;
+    }
+    for (int i = 0; i < 4; ++i) {
+      if (mesh.facet(t, i) == kNone) continue;
+      const Vec3 normal = state_.face_normal(t, i);
+      const Vec3 from = subtract(x, state_.position(mesh.tet(t)[kFace[i][0]]));
+      if (std::fabs(dot(normal, from)) < norm(normal) * kFacetClearance * size) return false;
+    }
+  }
+  return true;
+}
+
+// The tetrahedra between the point and the skin. False if a vertex would be lost.
+bool Filling::find_created() {
+  const MeshTopology& mesh = state_.mesh;
+  vertex_mark_.resize(mesh.vertices(), 0);
+  next_epoch(vertex_epoch_, vertex_mark_);
+  created_.clear();
+  for (const TetId t : cavity_) {
+    for (int i = 0; i < 4; ++i) {
+      if (is_open(t, i)) continue;
+      Tet tet = mesh.tet(t);
+      tet[i] = kNone;
+      created_.push_back({tet, mesh.region(t)});
+      for (const int k : kFace[i]) vertex_mark_[mesh.tet(t)[k]] = vertex_epoch_;
+    }
+  }
+  return std::ranges::all_of(cavity_, [&](TetId t) {
+    return std::ranges::all_of(mesh.tet(t),
+                               [&](VertexId v) { return vertex_mark_[v] == vertex_epoch_; });
+  });
+}
+
+bool Filling::is_positive(const Place& place) {
+  return std::ranges::all_of(cavity_, [&](TetId t) {
+    for (int i = 0; i < 4; ++i) {
+      if (!is_open(t, i) && !state_.is_positive_with(state_.mesh.tet(t), i, place)) return false;
+    }
+    return true;
+  });
+}
+
+bool Filling::insert(TetId start, const Vec3& x) {
+  grow(start, x);
+  const double size = size_at(x);
+  if (!has_room(x, size) || !cut_back(start, x) || !find_created()) return false;
+  const Place place = state_.new_place(x, size * State::kGrid);
+  if (!is_positive(place)) {
+    state_.forget(place);
+    return false;
+  }
+  size_.push_back(size);
+  state_.insert(place, cavity_, created_);
+  for (const TetId t : state_.mesh.created()) note(t);
+  return true;
+}
+
+void Filling::run() {
+  const auto slots = static_cast<TetId>(state_.mesh.slots());
+  for (TetId t = 0; t < slots; ++t) {
+    if (state_.mesh.alive(t)) note(t);
+  }
+  for (double points = 0; !queue_.empty() && points < most_points_;) {
+    const Candidate next = queue_.top();
+    queue_.pop();
+    if (!state_.mesh.alive(next.tet) || version_[next.tet] != next.version) continue;
+    control_.poll(state_.mesh.vertices(), 0);
+    const Vec3 x =
+        add(state_.position(state_.mesh.tet(next.tet)[0]), circumcentre(next.tet).from_first);
+    const TetId start = locate(next.tet, x);
+    if (start != kNone && insert(start, x)) ++points;
+  }
+}
+
+}  // namespace delmesher::improve
