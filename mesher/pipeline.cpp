@@ -1,4 +1,5 @@
 // The order of the stages: Algorithm 2 of the paper, and the policies that repeat parts of it.
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -322,13 +323,84 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
   return {};
 }
 
-// Without refinement: the surface alone.
-Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
+// The constrained Delaunay tetrahedrization of the surface alone.
+cdt::CdtResult plain_cdt(Session& s) {
   cdt::CdtInput input = enrich::plain_input(s.surface.topology());
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
-  cdt::CdtResult cdt =
-      cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
+  return cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
+}
+
+// A mesh whose faces on the surface are the triangles, but for those that vertices were left on.
+struct Keeping {
+  Session& s;
+  Recorder& recorder;
+  ConformingMesh mesh{};
+  std::uint64_t missing = 0, left = 0;
+
+  bool good_enough() const { return missing == 0; }
+
+  void tetrahedrize() {
+    cdt::CdtResult cdt = plain_cdt(s);
+    recorder.tetrahedrized(cdt);
+    mesh = std::move(cdt.mesh);
+    s.control.enter(Phase::improve);
+    keep_inside(mesh);
+  }
+  void fill_and_improve() {
+    improve::ImproveOptions options = improve_options(Region::interior, s);
+    options.keep_surface = true;
+    improve::ImproveResult improved = improve::improve(std::move(mesh), &s.surface.topology(), {},
+                                                       options, s.points, s.predicates, s.control);
+    mesh = std::move(improved.mesh);
+    left = improved.left;
+  }
+  // Flat edges come back where there is room below them, which takes far fewer points than to
+  // tetrahedrize with them.
+  void enter_edges() {
+    tetrahedrize();
+    const std::vector<std::uint8_t>& is_flat = s.surface.topology().edge_is_flat;
+    if (std::ranges::find(is_flat, 1) == is_flat.end()) return;
+    fill_and_improve();
+    SurfaceTopology each = with_facet_per_triangle(s.surface.topology());
+    improve::DiagonalsResult entered = improve::enter_diagonals(
+        std::move(mesh), s.surface.topology(), each, {}, {}, s.points, s.predicates, s.control);
+    mesh = std::move(entered.mesh);
+    missing = entered.missing;
+    s.surface.enter_given(std::move(each));
+  }
+  void tetrahedrize_triangles() {
+    s.points.truncate(s.input_vertices());
+    tetrahedrize();
+    missing = 0;
+  }
+};
+
+constexpr Step<Keeping> kKeeping[] = {
+    {Rung::tetrahedrize_again, [](const Keeping&) { return true; },
+     [](Keeping& k) { k.tetrahedrize_triangles(); }},
+};
+
+Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder) {
+  if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
+  Keeping keeping{s, recorder};
+  keeping.enter_edges();
+  climb(keeping, kKeeping, recorder.ladder());
+  keeping.fill_and_improve();
+  recorder.kept(keeping.mesh, keeping.left);
+  if (s.options.strict && keeping.left > 0) {
+    return {StatusCode::limit_reached,
+            std::to_string(keeping.left) + " vertices find no way off the surface",
+            Limit::precision};
+  }
+  s.control.enter(Phase::round);
+  round_and_record(std::move(keeping.mesh), s, recorder);
+  return {};
+}
+
+// Without refinement: the surface alone.
+Status surface_alone(const Surface& surface, Session& s, Recorder& recorder) {
+  if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
+  cdt::CdtResult cdt = plain_cdt(s);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
   round_and_record(std::move(cdt.mesh), s, recorder);
@@ -386,15 +458,22 @@ Result run_mesh(const Surface& surface, const Options& options, const LocalFrame
   return std::move(runs.best);
 }
 
+Result run_kept(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  return run(
+      [&](Session& s, Recorder& recorder) { return mesh_kept_surface(surface, s, recorder); },
+      options, frame);
+}
+
 Result run_plain_cdt(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  return run([&](Session& s, Recorder& recorder) { return plain_cdt(surface, s, recorder); },
+  return run([&](Session& s, Recorder& recorder) { return surface_alone(surface, s, recorder); },
              options, frame);
 }
 
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
-  return in_ordinary_units(surface, options, run_mesh);
+  return in_ordinary_units(surface, options,
+                           options.surface == SurfaceChoice::keep ? run_kept : run_mesh);
 }
 
 Result constrained_delaunay(const Surface& surface, const CdtOptions& given) {

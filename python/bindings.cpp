@@ -277,6 +277,7 @@ py::dict dict_of(Result&& result) {
   stats["acute_edges"] = s.acute_edges;
   stats["predicted_tetrahedra"] = s.predicted_tetrahedra;
   stats["tau"] = s.tau;
+  stats["left_on_surface"] = s.left_on_surface;
   stats["inverted"] = s.rounding_inverted;
   stats["flat"] = s.rounding_flat;
   stats["max_surface_deviation"] = s.max_surface_deviation;

@@ -253,7 +253,8 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
   json["steiner"] = {{"on_segments", s.steiner_on_segments},
                      {"on_facets", s.steiner_on_facets},
                      {"in_volume", s.steiner_in_volume},
-                     {"in_final_mesh", s.enriched}};
+                     {"in_final_mesh", s.enriched},
+                     {"left_on_surface", s.left_on_surface}};
   json["rounding"] = rounding_json(s);
   json["rounding"]["inexact"] = s.rounding_inexact;
   json["rounding"]["signs"] = s.rounding_signs;
@@ -332,6 +333,10 @@ std::vector<std::string> limits_texts(const Statistics& s) {
   if (s.refinement_capped) {
     texts.emplace_back(
         "slivers, or angles above the guaranteed ones, were given up at four times the points");
+  }
+  if (s.left_on_surface > 0) {
+    texts.push_back("the surface is kept but for " + std::to_string(s.left_on_surface) +
+                    " vertices that found no way off it (--strict makes that a failure)");
   }
   if (s.cdt_restarts > 0) {
     texts.push_back("the constrained tetrahedrization was begun anew " +

@@ -140,9 +140,10 @@ int Runner::mesh() {
     remark(planar_text(command_.input, s, options->planar == 0 || s.diagonals > 0));
   }
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
-  // The constrained Delaunay tetrahedrization promises no angles.
+  // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
   if (result.status.ok() && options != nullptr) {
-    for (std::string& warning : quality_warnings(result, options->delta)) {
+    for (std::string& warning :
+         quality_warnings(result, options->surface == SurfaceChoice::keep ? 0 : options->delta)) {
       result.warnings.push_back(std::move(warning));
     }
     for (std::string& warning : edge_warnings(result.mesh, *options)) {

@@ -91,6 +91,13 @@ TEST(Reports, LimitsThatStruckHaveALineEach) {
   EXPECT_NE(limits_texts(s)[0].find("all corners"), std::string::npos);
 }
 
+TEST(Reports, VerticesLeftOnAKeptSurfaceAreTold) {
+  Statistics s;
+  s.left_on_surface = 3;
+  ASSERT_EQ(limits_texts(s).size(), 1U);
+  EXPECT_NE(limits_texts(s)[0].find("but for 3 vertices"), std::string::npos);
+}
+
 TEST(Reports, WhatDoesNotGoBackByLocalOperationsIsTold) {
   Statistics s;
   s.diagonals = 9;
@@ -295,7 +302,8 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
             "larger_tau empty_balls chamfers_nearby chamfers_everywhere tetrahedrize_again "
             "other_orders untangle thin_out input_alone all_repairs back_to_given no_planes ");
   EXPECT_EQ(keys(json["limits"]), "refinement_capped cdt_restarts thinned ");
-  EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
+  EXPECT_EQ(keys(json["steiner"]),
+            "on_segments on_facets in_volume in_final_mesh left_on_surface ");
   EXPECT_EQ(keys(json["rounding"]),
             "inverted flat repaired inexact signs thinned max_surface_deviation ");
   EXPECT_EQ(json["status"], "ok");

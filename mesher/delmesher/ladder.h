@@ -16,7 +16,8 @@ enum class Rung : std::uint8_t {
   empty_balls,
   chamfers_nearby,
   chamfers_everywhere,
-  // With --planar 0: the mesh goes back to the surface as given.
+  // With --planar 0: the mesh goes back to the surface as given. A kept surface: the edges between
+  // its coplanar triangles come back.
   tetrahedrize_again,
   // Rounding: no tetrahedron is inverted or flat, as written or on exact coordinates.
   other_orders,
@@ -50,7 +51,7 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
      "chamfers up to 90 degrees at corners nearby", "tau", "filter, chamfering, refinement"},
     {"chamfers_everywhere", 1, "they are not everywhere",
      "chamfers up to 90 degrees at all corners", "tau", "filter, chamfering, refinement"},
-    {"tetrahedrize_again", 1, "lengths of edges are not bounded", "the surface as given",
+    {"tetrahedrize_again", 1, "no bound on edges, or a kept surface", "the surface as given",
      "points on its edges and in the volume", "a constrained tetrahedrization"},
     {"other_orders", 3, "few defects are left", "repairs in another order", "the mesh",
      "the repairs"},

@@ -45,8 +45,9 @@ struct Text {
   std::string_view help;
   Bounds bounds = {};  // of switches and choices: 0 and 1
   Unit unit = Unit::none;
-  bool zero_is_none = false;  // on the command line one leaves the option out instead
-  bool promised = false;      // the oracles check it, if named in --promised
+  bool zero_is_none = false;       // on the command line one leaves the option out instead
+  bool promised = false;           // the oracles check it, if named in --promised
+  bool with_kept_surface = false;  // SurfaceChoice::keep uses it
   std::array<Word, 2> words = {};
 };
 
@@ -63,6 +64,18 @@ struct Row {
 inline constexpr std::string_view kPaper = "paper_";
 
 inline constexpr std::tuple kTable{
+    Row({.name = "surface",
+         .help = "split: add vertices where angles call for them; keep: each triangle is one face, "
+                 "for few tetrahedra without a bound on angles",
+         .promised = true,
+         .with_kept_surface = true,
+         .words = {{{"split", 0}, {"keep", 1}}}},
+        &Options::surface),
+    Row({.name = "strict",
+         .help = "with --surface keep: fail where an added vertex cannot leave the surface",
+         .promised = true,
+         .with_kept_surface = true},
+        &Options::strict),
     Row({.name = "delta",
          .help = "smallest face angle, best effort above the default",
          .bounds = {.low = 0, .high = 30, .above_low = true},
@@ -161,7 +174,8 @@ inline constexpr std::tuple kTable{
          .bounds = kAnyLength,
          .unit = Unit::length,
          .zero_is_none = true,
-         .promised = true},
+         .promised = true,
+         .with_kept_surface = true},
         &Options::max_edge, &PlaneOptions::max_edge),
     Row({.name = "max_edge",
          .help = "no longer edge is made",
@@ -173,12 +187,14 @@ inline constexpr std::tuple kTable{
     Row({.name = "size_field",
          .help = "smaller edges in places: lines X Y Z SIZE, or a .pos of Gmsh",
          .unit = Unit::length,
-         .promised = true},
+         .promised = true,
+         .with_kept_surface = true},
         &Options::size_field, &ImproveOptions::size_field),
     Row({.name = "size_growth",
          .help = "how much larger edges may be per distance from the sources of the size field",
          .bounds = {.above_low = true},
-         .promised = true},
+         .promised = true,
+         .with_kept_surface = true},
         &Options::size_growth, &ImproveOptions::size_growth),
     Row({.name = "region",
          .help = "where the angle bound holds, and what is written",
@@ -203,17 +219,20 @@ inline constexpr std::tuple kTable{
          .help = "stop beyond this many vertices",
          .bounds = {.high = 4294967294},  // the largest index
          .zero_is_none = true,
-         .promised = true},
+         .promised = true,
+         .with_kept_surface = true},
         &Limits::max_vertices, &PlaneOptions::max_vertices),
     Row({.name = "time_limit",
          .help = "stop after this time",
          .bounds = {.high = kNoBound},
          .unit = Unit::seconds,
-         .zero_is_none = true},
+         .zero_is_none = true,
+         .with_kept_surface = true},
         &TimeLimit::time_limit_seconds),
     Row({.name = "threads",
          .help = "threads that share the work, 0: one per core",
-         .bounds = {.high = 1024}},
+         .bounds = {.high = 1024},
+         .with_kept_surface = true},
         &Limits::threads, &CheckOptions::threads, &RepairOptions::threads),
 
     Row({.name = "paper_link",

@@ -15,8 +15,20 @@ namespace delmesher {
 
 inline constexpr double kPlanarAuto = -1;
 
+// What becomes of the triangles of the surface.
+enum class SurfaceChoice : std::uint8_t {
+  split,  // vertices are added to it where angles call for them
+  keep  // each is one face of the mesh, and no vertex is added: few tetrahedra, no bound on angles
+};
+
 // Of tetrahedralize().
 struct Options : Limits {
+  // A surface is kept with the options that have Text::with_kept_surface in option_table.h; the
+  // others have to be as they are by default.
+  SurfaceChoice surface = SurfaceChoice::split;
+  // A vertex on a kept surface that finds no way off it ends the run with Limit::precision. It is
+  // counted otherwise.
+  bool strict = false;
   // Every face angle of the refined mesh is at least this (section 5.4). 14.47 is a radius-edge
   // ratio of 2; above it the bound is best effort and insertions are capped.
   double delta = 14.47;

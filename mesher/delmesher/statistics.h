@@ -53,6 +53,8 @@ struct Statistics {
   // that kept the surface as given, which might have had none. Vertices, most of the time: there it
   // needs more of them.
   Limit planar_limit = Limit::none;
+  // With SurfaceChoice::keep: vertices on the surface that are not of the input.
+  std::uint64_t left_on_surface = 0;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
   double tau = 0;                   // in force: Options::tau, or more for the budget
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;

@@ -104,6 +104,8 @@ void record_refined(const chamfer::ChamferResult& chamfered, const refine::Refin
 
 void record_final(const ConformingMesh& mesh, const SurfaceTopology& topology,
                   ExactRecord& record) {
+  record.final.clear();
+  record.final_facets.clear();
   for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
     record.final.push_back({mesh.tetrahedra[n], mesh.region[n] != kOutside});
   }
@@ -119,8 +121,6 @@ void record_changed(const ConformingMesh& changed, const SurfaceTopology& topolo
     record.unrepaired = std::move(record.final);
     record.unrepaired_facets = std::move(record.final_facets);
   }
-  record.final.clear();
-  record.final_facets.clear();
   record_final(changed, topology, record);
 }
 

@@ -108,6 +108,11 @@ void Recorder::improved(const ConformingMesh& mesh) {
   if (exact()) record_changed(mesh, session_.surface.topology(), result_.exact);
 }
 
+void Recorder::kept(const ConformingMesh& mesh, std::uint64_t left) {
+  result_.statistics.left_on_surface = left;
+  improved(mesh);
+}
+
 void Recorder::thinned(const ConformingMesh& mesh, std::uint64_t vertices) {
   result_.statistics.rounding_thinned = vertices;
   if (exact()) record_changed(mesh, session_.surface.topology(), result_.exact);

@@ -34,6 +34,8 @@ class Recorder {
   void tetrahedrized(const cdt::CdtResult& cdt);
   // The same mesh after local operations.
   void improved(const ConformingMesh& mesh);
+  // The same with the surface kept, but for `left` vertices on it.
+  void kept(const ConformingMesh& mesh, std::uint64_t left);
   // `vertices` in all were taken out again before rounding.
   void thinned(const ConformingMesh& mesh, std::uint64_t vertices);
   // Edges of the surface as given came back by local operations, except for `missing`.

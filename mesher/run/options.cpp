@@ -51,6 +51,31 @@ std::string value_defect(const options::Text& /*option*/, const std::vector<Size
   return {};
 }
 
+// A kept surface leaves nothing for most options to do.
+std::string combination_defect(const Options& given) {
+  if (given.surface != SurfaceChoice::keep) {
+    return given.strict ? "strict needs surface keep" : "";
+  }
+  std::string defect;
+  const Options defaults;
+  options::for_each(given, [&]<class T>(const options::Text& option, const T& value) {
+    options::for_each(defaults, [&]<class U>(const options::Text& same, const U& usual) {
+      if constexpr (std::is_same_v<T, U> && options::kind_of<T>() != options::Kind::sources) {
+        const bool idle = !option.with_kept_surface && option.name == same.name && value != usual;
+        if (idle && defect.empty()) {
+          defect = std::string(option.name) + " does nothing with surface keep";
+        }
+      }
+    });
+  });
+  return defect;
+}
+
+template <class JobOptions>
+std::string combination_defect(const JobOptions& /*given*/) {
+  return {};
+}
+
 }  // namespace
 
 template <class JobOptions>
@@ -59,7 +84,7 @@ std::string options_defect(const JobOptions& given) {
   options::for_each(given, [&](const options::Text& option, const auto& value) {
     if (defect.empty()) defect = value_defect(option, value);
   });
-  return defect;
+  return defect.empty() ? combination_defect(given) : defect;
 }
 
 template std::string options_defect(const Options&);
