@@ -11,6 +11,7 @@
 #include "oracles/mesh/delaunay.h"
 #include "oracles/mesh/edge_lengths.h"
 #include "oracles/mesh/hull.h"
+#include "oracles/mesh/kept.h"
 #include "oracles/mesh/measures.h"
 #include "oracles/mesh/places.h"
 #include "oracles/mesh/regions.h"
@@ -37,6 +38,7 @@ class FileStep final : public Step {
                      const InputSurface& input);
   void check_hull_of_file(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface);
+  void check_surface_kept(const ConformityResult& conformity, Index first);
   void check_quality(const TetComplex& complex, const Neighbours& neighbours,
                      const InputSurface& surface, const ConformityResult& conformity);
   void check_lengths(const TetComplex& complex);
@@ -201,6 +203,7 @@ void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighb
     slack_ = kRoundedUlps * ulp_;
   }
   add(conformity.report);
+  if (options_.promised.keep) check_surface_kept(conformity, complex.first_vertex);
   // What may differ at all may differ by the smallest double.
   const double area =
       surface_area(complex, conformity.faces, area_unit(input.largest_coordinate()));
@@ -223,6 +226,19 @@ void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighb
   }
   add(std::move(list));
   check_names();
+}
+
+// Unless it was to be strict, a run may leave vertices on the surface; what it left is said first.
+void FileStep::check_surface_kept(const ConformityResult& conformity, Index first) {
+  OracleReport kept = check_kept(input_, mesh_, conformity.faces, first);
+  if (kept.violations > 0 && !options_.promised.strict) {
+    report_.unproven.push_back("--surface keep (" + std::to_string(kept.violations) +
+                               " triangles are split)");
+    kept.promised = false;
+    kept.violations = 0;
+    kept.findings.clear();
+  }
+  add(std::move(kept));
 }
 
 // Labels that differ are lost in a file that lists no triangles, though its format has them.

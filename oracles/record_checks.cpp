@@ -78,9 +78,10 @@ class Final final : public Step {
 
   void check_exact_hull(const TetComplex& complex, const Neighbours& neighbours);
   void check_complex_of_final(const ExactPoints& points, const InputSurface& surface);
-  static OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
-                                      const InputSurface& surface,
-                                      const std::vector<FaceOnFacet>& listed);
+  Index facet_of(const InputSurface& surface, Index triangle) const;
+  OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
+                               const InputSurface& surface,
+                               const std::vector<FaceOnFacet>& listed) const;
   std::vector<Index> returned_vertices() const;
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
@@ -140,8 +141,8 @@ std::string Final::run() {
   shared_.forget_final();
 #ifdef TETPROOF_SECOND_OPINIONS
   // Before the mesh that has not been improved takes the memory of this one; told after it.
-  OracleReport second =
-      check_second_kernel(input_, surface, *exact_, points, options_.sidecar, sidecar.as_given);
+  OracleReport second = check_second_kernel(input_, surface, *exact_, points, options_.sidecar,
+                                            sidecar.as_given, options_.promised.keep);
 #endif
   if (usable && !exact_->unrepaired.empty()) check_unrepaired();
 #ifdef TETPROOF_SECOND_OPINIONS
@@ -163,15 +164,22 @@ void Final::check_complex_of_final(const ExactPoints& points, const InputSurface
   check_exact_hull(complex, neighbours);
   check_constrained(complex, neighbours, surface);
   add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");
-  if (options_.promised.task == Task::cdt) {
+  if (options_.promised.task == Task::cdt && !options_.promised.keep) {
     add(check_origins(*exact_, points, surface, static_cast<Index>(input_.vertices.size())));
   }
+}
+
+// A facet is named by its first triangle, or, where each triangle is a face, by any.
+Index Final::facet_of(const InputSurface& surface, Index triangle) const {
+  if (triangle >= surface.triangles().size()) return kNone;
+  const Index facet = surface.facet_of_triangle()[triangle];
+  return options_.promised.keep || surface.facets()[facet].id == triangle ? facet : kNone;
 }
 
 // The faces that the record puts on facets are those that tile them, seen from outside.
 OracleReport Final::check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
                                     const InputSurface& surface,
-                                    const std::vector<FaceOnFacet>& listed) {
+                                    const std::vector<FaceOnFacet>& listed) const {
   OracleReport report("facets", "faces");
   struct Tile {
     Face face;
@@ -179,33 +187,32 @@ OracleReport Final::check_facet_ids(const TetComplex& complex, const ConformityR
     bool even;  // the permutation of the ascending corners that is seen from outside
     auto operator<=>(const Tile&) const = default;
   };
-  std::vector<Tile> facet_of;
-  facet_of.reserve(conformity.faces.size());
+  std::vector<Tile> tiles;
+  tiles.reserve(conformity.faces.size());
   for (Index f = 0; f < conformity.faces.size(); ++f) {
     Face face = conformity.faces[f];
     const bool even = sort_face(face);
-    facet_of.push_back({face, conformity.facets[f], even});
+    tiles.push_back({face, conformity.facets[f], even});
   }
-  std::sort(facet_of.begin(), facet_of.end());
-  std::vector<std::uint8_t> seen(facet_of.size());
+  std::sort(tiles.begin(), tiles.end());
+  std::vector<std::uint8_t> seen(tiles.size());
   for (const auto& [a, b, c, id] : listed) {
     Face face = {a, b, c};
     const bool even = sort_face(face);
     ++report.checked;
-    const auto found =
-        std::lower_bound(facet_of.begin(), facet_of.end(), Tile{face, Index{0}, false});
-    if (found == facet_of.end() || found->face != face) {
+    const auto found = std::lower_bound(tiles.begin(), tiles.end(), Tile{face, Index{0}, false});
+    if (found == tiles.end() || found->face != face) {
       report.fail(complex.face_name(face) + " is no boundary face of the solid");
-    } else if (seen[found - facet_of.begin()]++ != 0) {
+    } else if (seen[found - tiles.begin()]++ != 0) {
       report.fail(complex.face_name(face) + " is listed twice");
     } else if (found->even != even) {
       report.fail(complex.face_name(face) + " is turned over");
-    } else if (found->facet != kNone && surface.facets()[found->facet].id != id) {
+    } else if (found->facet != kNone && facet_of(surface, id) != found->facet) {
       report.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
                   " but tiles " + std::to_string(surface.facets()[found->facet].id));
     }
   }
-  if (report.checked != facet_of.size()) report.fail("not every boundary face is listed once");
+  if (report.checked != tiles.size()) report.fail("not every boundary face is listed once");
   return report;
 }
 
@@ -269,7 +276,8 @@ void Final::check_constrained(const TetComplex& complex, const Neighbours& neigh
 // A mesh of the surface that was refined.
 void Final::check_unrepaired() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
-  {
+  // Of a kept surface only the surface is promised, which the final mesh shows by itself.
+  if (!options_.promised.keep) {
     const std::shared_ptr<const ExactPoints> written = shared_.written();
     add(options_.promised.improve
             ? check_improvement(*exact_, *written, options_.promised, returned_vertices())

@@ -57,6 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Sections, Lies, testing::ValuesIn(sections()), lie_name
 INSTANTIATE_TEST_SUITE_P(Foreign, Lies, testing::ValuesIn(foreign()), lie_name);
 INSTANTIATE_TEST_SUITE_P(Consistent, Lies, testing::ValuesIn(consistent()), lie_name);
 INSTANTIATE_TEST_SUITE_P(Improved, Lies, testing::ValuesIn(improved()), lie_name);
+INSTANTIATE_TEST_SUITE_P(Kept, Lies, testing::ValuesIn(kept()), lie_name);
 
 VerifyReport verdict_on(const Told& told) {
   VerifyReport report;

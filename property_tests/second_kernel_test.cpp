@@ -67,7 +67,7 @@ class Told {
     ASSERT_EQ(surface.assign(input, points), "");
   }
   OracleReport report() const {
-    return check_second_kernel(input, surface, record, points, "", false);
+    return check_second_kernel(input, surface, record, points, "", false, false);
   }
   // The input vertex, or another point of the record, that was there.
   Index at(const Position& p) const { return number_.at(p); }

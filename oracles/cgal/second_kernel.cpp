@@ -693,7 +693,7 @@ std::vector<ExactRecord::Facet> facets_of(const InputSurface& surface) {
 
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const ExactRecord& record, const ExactPoints& points,
-                                 const std::string& sidecar, bool as_given) {
+                                 const std::string& sidecar, bool as_given, bool kept) {
   Definitions definitions;
   if (sidecar.empty()) {
     definitions = {record.points, record.planes};
@@ -712,8 +712,12 @@ OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& su
     definitions.planes.clear();
   }
   std::vector<ExactRecord::Facet> made;
-  if (as_given) made = facets_of(surface);
-  const std::vector<ExactRecord::Facet>& facets = as_given ? made : record.facets;
+  if (kept) {
+    for (Index t = 0; t < surface.triangles().size(); ++t) made.push_back({t, 0, 0, {t}});
+  } else if (as_given) {
+    made = facets_of(surface);
+  }
+  const std::vector<ExactRecord::Facet>& facets = kept || as_given ? made : record.facets;
   if (definitions.planes.empty()) {
     return SecondKernel<Whole>(input, surface, record, facets, points, std::move(definitions))
         .run();

@@ -20,9 +20,9 @@ namespace tetproof::oracles {
 // Checks all elements of small meshes, an evenly spread sample of large ones. Sums are complete
 // or left out, and the figures say how many of each were asked. Triangles are oriented as in the
 // surface. Coordinates of the input are those given, except for vertices that were moved, which the
-// record defines; with `as_given` for those, too.
+// record defines; with `as_given` for those, too. With `kept` each triangle is a facet by itself.
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const delmesher::ExactRecord& record, const ExactPoints& points,
-                                 const std::string& sidecar, bool as_given);
+                                 const std::string& sidecar, bool as_given, bool kept);
 
 }  // namespace tetproof::oracles

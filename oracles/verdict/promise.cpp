@@ -117,6 +117,12 @@ constexpr Option kOptions[] = {
      .takes = Takes::word,
      .target = &Promise::second_order,
      .words = {"1", "2"}},
+    {.name = "--surface",
+     .tasks = kMesh,
+     .takes = Takes::word,
+     .target = &Promise::keep,
+     .words = {"split", "keep"}},
+    {"--strict", kMesh, Takes::nothing, &Promise::strict},
     {.name = "--improve",
      .tasks = kMesh,
      .takes = Takes::word,
@@ -229,6 +235,11 @@ std::string choose(const std::string& list, Promise& p) {
   return {};
 }
 
+void set_kept(Promise& p) {
+  p.task = Task::cdt;
+  p.planar = 0;
+}
+
 class PromiseReader {
  public:
   explicit PromiseReader(std::string_view text) : words_(words_of(text)) {}
@@ -252,6 +263,7 @@ class PromiseReader {
       std::string option = words_[next_++];
       if (std::string why = apply(std::move(option), p); !why.empty()) return why;
     }
+    if (p.keep) set_kept(p);
     return {};
   }
 
@@ -558,6 +570,9 @@ Promise promise_of(const delmesher::Options& options) {
   p.size_growth = options.size_growth;
   p.budget = static_cast<double>(options.budget);
   p.max_vertices = static_cast<double>(options.max_vertices);
+  p.strict = options.strict;
+  p.keep = options.surface == delmesher::SurfaceChoice::keep;
+  if (p.keep) set_kept(p);
   return p;
 }
 

@@ -34,6 +34,10 @@ struct Promise {
   bool gabriel = false;
   bool approximate = false;
   bool improve = true;
+  // The surface was to be kept. Then the task is cdt: a tetrahedrization of the surface, which
+  // local operations have changed.
+  bool keep = false;
+  bool strict = false;        // without an exception
   bool names = false;         // sets are called by names of another file
   bool second_order = false;  // ten-node tetrahedra, in formats that have them
   // The choices of --as-paper that an oracle can see.

@@ -65,5 +65,6 @@ std::span<const Lie> sections();
 std::span<const Lie> foreign();
 std::span<const Lie> consistent();
 std::span<const Lie> improved();
+std::span<const Lie> kept();
 
 }  // namespace tetproof::lies

@@ -173,11 +173,12 @@ std::vector<JobOptions> jobs_with_promises() {
 }
 
 auto members(const Promise& p) {
-  return std::tuple(std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel,
-                               p.approximate, p.improve, p.region, p.chamfer_radius, p.max_edge,
-                               p.size_field.size(), p.size_growth, p.budget, p.max_vertices),
-                    std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment,
-                               p.filter_pairs, p.filter_chamfered, p.no_guard));
+  return std::tuple(
+      std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel, p.approximate, p.improve,
+                 p.region, p.chamfer_radius, p.max_edge, p.size_field.size(), p.size_growth,
+                 p.budget, p.max_vertices, p.keep, p.strict),
+      std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment, p.filter_pairs,
+                 p.filter_chamfered, p.no_guard));
 }
 
 std::string argument(const delmesher::options::Value& option, const std::string& sizes) {

@@ -1,0 +1,164 @@
+// Laws of a surface that is kept (Options::surface), decided by the oracles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesher/delmesher.h"
+#include "oracles/mesh/kept.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using delmesher::Options;
+using delmesher::Result;
+using delmesher::StatusCode;
+using delmesher::Surface;
+using delmesher::SurfaceChoice;
+using oracles::VerifyReport;
+
+constexpr std::uint64_t kSeed = 20261129;
+
+Options keeping() {
+  Options options;
+  options.want_exact = true;
+  options.surface = SurfaceChoice::keep;
+  options.strict = true;
+  return options;
+}
+
+VerifyReport verified(const Surface& surface, const Result& result, const Options& options) {
+  VerifyReport report;
+  EXPECT_EQ(oracles::verify(
+                samples::to_polyhedron(surface), samples::to_mesh(result.mesh), &result.exact,
+                {.stage = oracles::Stage::final, .promised = oracles::promise_of(options)}, report),
+            "");
+  return report;
+}
+
+// Every triangle is one face, all vertices on the surface are the input's, and nothing deviates.
+void expect_kept(const Surface& surface, const Options& options = keeping()) {
+  const Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.statistics.left_on_surface, 0U);
+  EXPECT_EQ(result.mesh.boundary.size(), surface.triangles.size());
+  const VerifyReport report = verified(surface, result, options);
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+  const oracles::OracleReport* kept = report.find("kept");
+  ASSERT_NE(kept, nullptr);
+  EXPECT_EQ(kept->figure(oracles::kSplitTriangles), 0.0);
+  EXPECT_EQ(kept->figure(oracles::kAddedVertices), 0.0);
+}
+
+// A ball of triangles of about this edge, of radius 1.
+Surface ball(int rings) {
+  Surface surface;
+  surface.vertices.push_back({0, 0, 1});
+  const int sides = 2 * rings;
+  for (int ring = 1; ring < rings; ++ring) {
+    const double polar = std::numbers::pi * ring / rings;
+    for (int k = 0; k < sides; ++k) {
+      const double turn = 2 * std::numbers::pi * k / sides;
+      surface.vertices.push_back(
+          {std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)});
+    }
+  }
+  surface.vertices.push_back({0, 0, -1});
+  const auto at = [&](int ring, int k) -> std::uint32_t {
+    if (ring == 0) return 0;
+    if (ring == rings) return static_cast<std::uint32_t>(surface.vertices.size() - 1);
+    return static_cast<std::uint32_t>(1 + (ring - 1) * sides + k % sides);
+  };
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int k = 0; k < sides; ++k) {
+      if (ring > 0) surface.triangles.push_back({at(ring, k), at(ring + 1, k), at(ring, k + 1)});
+      if (ring + 1 < rings) {
+        surface.triangles.push_back({at(ring, k + 1), at(ring + 1, k), at(ring + 1, k + 1)});
+      }
+    }
+  }
+  return surface;
+}
+
+class Kept : public testing::TestWithParam<samples::NamedSurface> {};
+
+TEST_P(Kept, EveryTriangleIsOneFace) {
+  expect_kept(GetParam().surface);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Kept, testing::ValuesIn(samples::surfaces(kSeed)),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(KeptSurface, IsKeptOfRandomSolids) {
+  for (int i = 0; i < samples::iterations(6); ++i) {
+    const std::uint64_t seed = kSeed + static_cast<std::uint64_t>(i);
+    SCOPED_TRACE(seed);
+    expect_kept(samples::random_voxels(seed));
+    expect_kept(samples::quantized_star(seed));
+  }
+}
+
+// Points in the volume, graded: far fewer than in a grid of the edges of the surface, and enough
+// for round tetrahedra.
+TEST(KeptSurface, IsFilledWithFewRoundTetrahedra) {
+  const Surface surface = ball(16);
+  const Result result = delmesher::tetrahedralize(surface, keeping());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const auto& s = result.statistics.final;
+  EXPECT_GT(s.vertices, surface.vertices.size());
+  EXPECT_LT(s.tetrahedra, 6 * surface.triangles.size());
+  EXPECT_GT(s.mean_gamma, 0.55);
+}
+
+// Edges inside follow what was asked for, though the surface stays.
+TEST(KeptSurface, HasShorterEdgesInsideIfAskedFor) {
+  const Surface surface = ball(8);
+  Options options = keeping();
+  const Result coarse = delmesher::tetrahedralize(surface, options);
+  options.max_edge = 0.2;
+  expect_kept(surface, options);
+  const Result fine = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(coarse.status.ok() && fine.status.ok());
+  EXPECT_GT(fine.mesh.tetrahedra.size(), 3 * coarse.mesh.tetrahedra.size());
+}
+
+TEST(KeptSurface, TakesNoOptionThatDoesNothing) {
+  const auto refused = [](auto change) {
+    Options options = keeping();
+    change(options);
+    return delmesher::tetrahedralize(samples::wedge_and_slab(), options).status;
+  };
+  const auto status = refused([](Options& o) { o.tau = 0; });
+  EXPECT_EQ(status.code, StatusCode::invalid_options);
+  EXPECT_NE(status.message.find("tau"), std::string::npos) << status.message;
+  for (const auto change :
+       {+[](Options& o) { o.region = delmesher::Region::hull; }, +[](Options& o) { o.budget = 10; },
+        +[](Options& o) { o.as_paper.link = true; },
+        +[](Options& o) { o.surface = SurfaceChoice::split; }}) {
+    EXPECT_EQ(refused(change).code, StatusCode::invalid_options);
+  }
+}
+
+// Of one that was not to be strict, the first line says how much of it is split.
+TEST(KeptSurface, SaysWhatIsSplit) {
+  const Surface surface = samples::to_surface(samples::cube().input);
+  Options options = keeping();
+  options.strict = false;
+  Options split;
+  split.max_edge = 0.4;
+  const Result result = delmesher::tetrahedralize(surface, split);
+  VerifyReport report;
+  EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh), nullptr,
+                            {.promised = oracles::promise_of(options)}, report),
+            "");
+  ASSERT_FALSE(report.unproven.empty());
+  EXPECT_NE(report.unproven[0].find("triangles are split"), std::string::npos);
+  ASSERT_NE(report.find("kept"), nullptr);
+  EXPECT_GT(report.find("kept")->figure(oracles::kSplitTriangles), 0.0);
+}
+
+}  // namespace
+}  // namespace tetproof

@@ -1,0 +1,98 @@
+// Lies about a kept surface.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "property_tests/lies/told.h"
+
+namespace tetproof::lies {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::Options;
+
+void keep(Told& told) {
+  Options options;
+  options.want_exact = true;
+  options.surface = delmesher::SurfaceChoice::keep;
+  options.strict = true;
+  told = run_of(options);
+  ASSERT_FALSE(told.record.unrepaired.empty());
+}
+
+// A triangle and the one across an edge in the same plane; a facet of the wedge or slab has two.
+std::pair<std::size_t, std::size_t> flat_pair(const Told& told) {
+  for (const auto& facet : told.record.facets) {
+    if (facet.triangles.size() == 2) return {facet.triangles[0], facet.triangles[1]};
+  }
+  ADD_FAILURE() << "no facet has two triangles";
+  return {};
+}
+
+// The other diagonal of a parallelogram.
+void exchange_diagonal(Told& told) {
+  const auto [s, t] = flat_pair(told);
+  auto &one = told.sample.input.triangles[s], &two = told.sample.input.triangles[t];
+  const auto is_in = [](const auto& triangle, Index v) {
+    return std::ranges::find(triangle, v) != triangle.end();
+  };
+  while (is_in(two, one[0])) std::rotate(one.begin(), one.begin() + 1, one.end());
+  while (is_in(one, two[0])) std::rotate(two.begin(), two.begin() + 1, two.end());
+  const Index apex = one[0], other = two[0], left = one[1], right = one[2];
+  one = {apex, left, other};
+  two = {apex, other, right};
+}
+
+const Lie kKept[] = {
+    {"a surface that was split told to be kept", "kept",
+     [](Told& t) {
+       keep(t);
+       const Told split = honest();
+       t.sample.mesh = split.sample.mesh;
+       t.record = split.record;
+     }},
+    {"another diagonal kept than the input has", "kept",
+     [](Told& t) {
+       keep(t);
+       exchange_diagonal(t);
+     }},
+    {"a face kept as another triangle of its facet", "exact-second-kernel",
+     [](Told& t) {
+       keep(t);
+       const auto [s, other] = flat_pair(t);
+       for (auto& face : t.record.final_facets) {
+         if (face[3] == s) face[3] = static_cast<std::uint32_t>(other);
+       }
+     }},
+    {"a face kept as a triangle of another facet", "exact-facets",
+     [](Told& t) {
+       keep(t);
+       const auto [s, other] = flat_pair(t);
+       for (auto& face : t.record.final_facets) {
+         if (face[3] != s && face[3] != other) {
+           face[3] = static_cast<std::uint32_t>(s);
+           break;
+         }
+       }
+     }},
+    {"a tetrahedron before the surface was cleared turned over", "unrepaired-complex",
+     [](Told& t) {
+       keep(t);
+       auto& tet = t.record.unrepaired.front().vertices;
+       std::swap(tet[0], tet[1]);
+     }},
+    {"a refined mesh beside a kept surface", "promise",
+     [](Told& t) {
+       keep(t);
+       t.record.refined = t.record.unrepaired;
+     }},
+};
+
+}  // namespace
+
+std::span<const Lie> kept() {
+  return kKept;
+}
+
+}  // namespace tetproof::lies
