@@ -63,6 +63,15 @@ TEST_P(Families, TwinsAreRefusedForTheRightReason) {
   }
 }
 
+TEST_P(Families, KeepTheirSurface) {
+  const Family* family = find_family(GetParam());
+  for (std::uint64_t i = 0; i < members(); ++i) {
+    const auto surface = generate(*family, 13, i);
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(fuzz::keep_holds(*surface), "") << i;
+  }
+}
+
 std::vector<const char*> family_names() {
   std::vector<const char*> names;
   for (const Family& family : families()) names.push_back(family.name);

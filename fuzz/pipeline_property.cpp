@@ -29,6 +29,7 @@ Leniency out_of_range("out-of-range-when-scaled", 0.1);
 Leniency within_roundings("file-of-features-below-8-ulp", 0.01);
 Leniency inexact_repairs("file-of-inexact-repairs-below-8-ulp", 0.01);
 Leniency left_by_rounding("not-positive-as-written-below-8-ulp", 0.01);
+Leniency left_on_surface("vertices-left-on-a-kept-surface", 0.05);
 Leniency explained_by_place("bad-tetrahedra-explained-by-place", 0.01);
 
 using Points = std::vector<std::array<double, 3>>;
@@ -280,6 +281,23 @@ Finding cdt_holds(const Surface& surface) {
   options.region = delmesher::Region::interior;
   options.max_vertices = kMostVertices;
   const Result result = delmesher::constrained_delaunay(surface, options);
+  return judged(surface, result, oracles::promise_of(options));
+}
+
+Finding keep_holds(const Surface& surface) {
+  judging({&too_many_vertices, &too_precise, &within_roundings, &inexact_repairs, &left_by_rounding,
+           &left_on_surface});
+  Options options;
+  options.want_exact = true;
+  options.max_vertices = kMostVertices;
+  options.surface = delmesher::SurfaceChoice::keep;
+  if (hash_of(surface) % 4 == 0) options.max_edge = options_for(surface).max_edge;
+  const Result result = delmesher::tetrahedralize(surface, options);
+  if (result.statistics.left_on_surface > 0) {
+    left_on_surface.take();
+  } else {
+    options.strict = true;  // judged as if nothing might be left
+  }
   return judged(surface, result, oracles::promise_of(options));
 }
 

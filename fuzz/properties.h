@@ -40,6 +40,10 @@ Finding recovery_holds(const delmesher::Surface& surface);
 // The plain constrained tetrahedrization passes the oracles.
 Finding cdt_holds(const delmesher::Surface& surface);
 
+// With the surface kept, and edges inside of some size, the mesh passes the oracles; every triangle
+// is one face, unless vertices were left on it, which are counted.
+Finding keep_holds(const delmesher::Surface& surface);
+
 // Improving the tetrahedrization of a surface and random points leaves positive tetrahedra that fit
 // together, all vertices of the surface, and no worse angles than its laws allow.
 Finding improvement_holds(const delmesher::Surface& surface);

@@ -37,6 +37,7 @@ constexpr OwnVariant kOwn[] = {
     {"safe-delmesher-e4", "mesh --preset paper --slivers off"},
     {"delmesher-nofilter", "mesh --preset paper --tau 0"},
     {"delmesher-nobridges", "mesh --preset paper --simplify-bridges off"},
+    {"delmesher-keep", "mesh --surface keep"},
     {"cdt", "cdt --region hull"}};
 // One deviation from the default at a time, towards the paper: of the parameters and of
 // section 8.3. Each of the choices of --as-paper is another one.

@@ -51,7 +51,8 @@ struct Mesher {
 };
 
 // Understands
-//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges cdt
+//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges delmesher-keep
+//   cdt
 //   tetgen tetgen-T0 netgen gmsh-delaunay ...     the peers of peers.h
 //   delmesher+NAME                     one departure of its default from the paper undone: gabriel,
 //                                      acute-90, planar-0, improve-off, slivers-off, hull, or a

@@ -51,6 +51,7 @@ TEST_F(Meshers, ThePapersExperiments) {
   EXPECT_EQ(command("delmesher-e4"), own + " mesh --preset paper" + files);
   EXPECT_EQ(command("safe-delmesher-e4"), own + " mesh --preset paper --slivers off" + files);
   EXPECT_EQ(command("delmesher-nofilter"), own + " mesh --preset paper --tau 0" + files);
+  EXPECT_EQ(command("delmesher-keep"), own + " mesh --surface keep" + files);
   EXPECT_EQ(command("cdt"), own + " cdt --region hull" + files);
   const std::string tetgen = (programs_.adapters / "tetproof-tetgen").string();
   EXPECT_EQ(command("tetgen"), tetgen + " zpcq in.off out.mesh stats.json");
