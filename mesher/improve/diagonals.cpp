@@ -45,7 +45,7 @@ class FacetCorners {
 
 struct Diagonal {
   std::array<VertexId, 2> end;  // of the surface
-  FacetId facet;                // of the stand-in
+  FacetId facet;                // of the planarized surface
   std::uint32_t edge;           // of the surface as given
 };
 
@@ -70,11 +70,11 @@ class Entry {
   using Cavity = InsertPoint<Judge>;
 
  public:
-  Entry(State& state, std::span<const VertexId> number, const SurfaceTopology& stand_in,
+  Entry(State& state, std::span<const VertexId> number, const SurfaceTopology& planarized,
         const SurfaceTopology& as_given, Predicates& predicates, Control& control)
       : state_(state),
         number_(number),
-        stand_in_(stand_in),
+        planarized_(planarized),
         as_given_(as_given),
         predicates_(predicates),
         control_(control),
@@ -90,8 +90,8 @@ class Entry {
     std::vector<std::pair<double, Diagonal>> sorted;
     for (std::uint32_t e = 0; e < as_given_.edge_count(); ++e) {
       const auto [h, g] = as_given_.edge_half_edges(e);
-      const FacetId facet = stand_in_.facet_of_half_edge(h);
-      if (as_given_.edge_is_flat[e] != 0 || facet != stand_in_.facet_of_half_edge(g)) continue;
+      const FacetId facet = planarized_.facet_of_half_edge(h);
+      if (as_given_.edge_is_flat[e] != 0 || facet != planarized_.facet_of_half_edge(g)) continue;
       const std::array<VertexId, 2> end = as_given_.edge_vertices(e);
       sorted.emplace_back(
           distance(state_.points().nearest(end[0]), state_.points().nearest(end[1])),
@@ -107,7 +107,7 @@ class Entry {
   bool enter(const Diagonal& diagonal) {
     diagonal_ = diagonal;
     stays_[diagonal.edge] = 1;
-    axis_ = stand_in_.facet_axis[diagonal.facet];
+    axis_ = planarized_.facet_axis[diagonal.facet];
     to_ = number_[diagonal.end[1]];
     VertexId at = number_[diagonal.end[0]];
     int rooms = 8;  // at most: a point of the facet that moves may make a crossing more
@@ -133,7 +133,7 @@ class Entry {
   // Places Steiner points of facets anew that are given by a triangle of another facet as given.
   // False if there is no room for one.
   bool anchor_all() {
-    FacetLocator locator(stand_in_, state_.points());
+    FacetLocator locator(planarized_, state_.points());
     for (VertexId v = 0; v < state_.mesh.vertices(); ++v) {
       control_.poll();
       if (state_.mobility(v) != Mobility::in_plane || state_.mesh.incident(v) == kNone) continue;
@@ -293,15 +293,15 @@ class Entry {
   }
   // The new point is on the diagonal, and near the edge: within a smaller and smaller fraction of
   // it, until tetrahedra are thicker than that. Where the vertices that were moved take the edge
-  // along, the crossing is elsewhere on the stand-in than as given.
+  // along, the crossing is elsewhere on the planarized surface than as given.
   bool split(const Crossing& c) {
     const double length = distance(state_.position(c.end[0]), state_.position(c.end[1]));
-    const Vec3 on_stand_in = crossing_point(
+    const Vec3 on_planarized = crossing_point(
                    c, [&](VertexId v) { return state_.points().nearest(state_.point(v)); }),
                as_given = crossing_point(c, [&](VertexId v) { return state_.position(v); });
     for (double tolerance = 0x1p-10; tolerance > 0x1p-50; tolerance *= 0x1p-12) {
       for (const double share : {0.0, 1.0, 0.5}) {
-        const Vec3 x = add_scaled(on_stand_in, share, subtract(as_given, on_stand_in));
+        const Vec3 x = add_scaled(on_planarized, share, subtract(as_given, on_planarized));
         const Place place = state_.place_on_edge(diagonal_.end, x, length * tolerance);
         if (find_cavity(c, place)) {
           state_.insert_on_surface(place, Mobility::on_line, diagonal_.facet, cavity_.cavity(),
@@ -314,7 +314,7 @@ class Entry {
     return false;
   }
   // Where the diagonal crosses the edge, if `at` tells where vertices are; as a point of the
-  // diagonal on the stand-in.
+  // diagonal on the planarized surface.
   template <class At>
   Vec3 crossing_point(const Crossing& c, At&& at) const {
     const std::size_t i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
@@ -409,7 +409,7 @@ class Entry {
 
   State& state_;
   std::span<const VertexId> number_;  // of points of the store in the mesh
-  const SurfaceTopology& stand_in_;
+  const SurfaceTopology& planarized_;
   const SurfaceTopology& as_given_;
   Predicates& predicates_;
   Control& control_;
@@ -430,9 +430,9 @@ class Entry {
 // Gives the faces of the surface, on points of the store, their facets of the surface as given.
 class Handover {
  public:
-  Handover(const SurfaceTopology& stand_in, const SurfaceTopology& as_given,
+  Handover(const SurfaceTopology& planarized, const SurfaceTopology& as_given,
            const PointStore& points)
-      : as_given_(as_given), points_(points), locator_(stand_in, points), corners_(as_given) {}
+      : as_given_(as_given), points_(points), locator_(planarized, points), corners_(as_given) {}
 
   // A face lies in one facet, since all edges between them are chains of edges: that of its middle,
   // in doubles. False if a vertex of it is not of that facet.
@@ -462,7 +462,7 @@ class Handover {
 
 }  // namespace
 
-DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& stand_in,
+DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& planarized,
                                 const SurfaceTopology& as_given, std::span<const Vec3> given,
                                 const ImproveOptions& options, PointStore& points,
                                 Predicates& predicates, Control& control) {
@@ -471,9 +471,9 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& stan
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
   std::vector<VertexId> number(points.size(), kNone);
   for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
-  State state(topology_of(std::move(mesh), point, points.size()), point, &stand_in, given, points,
+  State state(topology_of(std::move(mesh), point, points.size()), point, &planarized, given, points,
               predicates, goals);
-  Entry entry(state, number, stand_in, as_given, predicates, control);
+  Entry entry(state, number, planarized, as_given, predicates, control);
   std::vector<Diagonal> missing = entry.diagonals();
   DiagonalsResult result;
   result.diagonals = missing.size();
@@ -486,7 +486,7 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& stan
   if (result.missing > 0) return result;
   const bool anchored = entry.anchor_all();
   result.mesh = mesh_of(state.mesh, state.point_of_vertices());
-  Handover handover(stand_in, as_given, points);
+  Handover handover(planarized, as_given, points);
   if (!(anchored && handover.run(result.mesh.boundary))) result.missing = result.diagonals;
   return result;
 }

@@ -110,7 +110,8 @@ TEST(Diagonals, RoomIsMadeBetweenNeedles) {
   EXPECT_EQ(c.wrong(), "");
 }
 
-// A triangle of the stand-in's facet that is another one as given than the point's own.
+// A triangle of the facet of the planarized surface that is another one as given than the point's
+// own.
 std::uint32_t other_triangle(const Case& c, const PointDefinition& d, FacetId facet) {
   const std::vector<std::uint32_t>& triangles = c.model.topology.facet_triangles[facet];
   const auto own = std::ranges::find_if(triangles, [&](std::uint32_t t) {

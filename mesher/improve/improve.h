@@ -32,7 +32,8 @@ struct ImproveOptions {
   double max_edge = 0;   // no edge longer than this is made; 0: any
   const SizeField* sizes = nullptr;  // nor than these allow
   Region region = Region::interior;  // which tetrahedra are to be good
-  bool as_given = false;  // of a stand-in: new tetrahedra are positive on the surface as given, too
+  // Of a planarized surface: new tetrahedra are positive on the surface as given, too.
+  bool as_given = false;
   Sparing sparing = {};
   // No vertex is added to the surface, those that are not of the input leave it, and the volume is
   // filled with points (filling.h).
@@ -48,7 +49,7 @@ struct ImproveResult {
 };
 
 // `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.
-// `given`: its vertices as given, if it is a stand-in. New points are appended to the store.
+// `given`: its vertices as given, if it is planarized. New points are appended to the store.
 // Deterministic, and the same in whatever order tetrahedra and faces are given. Throws Stopped when
 // the control says so.
 ImproveResult improve(ConformingMesh mesh, const SurfaceTopology* topology,

@@ -59,7 +59,7 @@ class ExactMesh : public PlacedMesh {
 
  protected:
   // `point`: of each vertex, in the store. `surface`: null if no vertex of it may move. `given`:
-  // its vertices as given, where it is a stand-in; else empty. `as_given`: changes are positive
+  // its vertices as given, where it is planarized; else empty. `as_given`: changes are positive
   // with these vertices, too. Arguments passed by reference or pointer must outlive the mesh.
   ExactMesh(MeshTopology topology, std::vector<VertexId> point, const SurfaceTopology* surface,
             std::span<const Vec3> given, bool as_given, PointStore& points, Predicates& predicates);
