@@ -56,19 +56,15 @@ std::string combination_defect(const Options& given) {
   if (given.surface != SurfaceChoice::keep) {
     return given.strict ? "strict needs surface keep" : "";
   }
-  std::string defect;
-  const Options defaults;
-  options::for_each(given, [&]<class T>(const options::Text& option, const T& value) {
-    options::for_each(defaults, [&]<class U>(const options::Text& same, const U& usual) {
-      if constexpr (std::is_same_v<T, U> && options::kind_of<T>() != options::Kind::sources) {
-        const bool idle = !option.with_kept_surface && option.name == same.name && value != usual;
-        if (idle && defect.empty()) {
-          defect = std::string(option.name) + " does nothing with surface keep";
-        }
-      }
-    });
-  });
-  return defect;
+  const std::vector<options::Value> values = options::values_of(given),
+                                    usual = options::values_of(Options());
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const options::Text& option = values[n].text;
+    if (!option.with_kept_surface && values[n].value != usual[n].value) {
+      return std::string(option.name) + " does nothing with surface keep";
+    }
+  }
+  return {};
 }
 
 template <class JobOptions>
