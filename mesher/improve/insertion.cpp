@@ -179,7 +179,7 @@ void Insertion::grow(const Vec3& x) {
 }
 
 // Faces of the point's own facets first: it is in their plane.
-std::vector<Insertion::Face>::const_iterator Insertion::face_to_cross() const {
+std::vector<Insertion::Face>::const_iterator Insertion::face_to_cross() {
   const MeshTopology& mesh = state_.mesh;
   const std::vector<Face>& skin = operation_.skin();
   if (site_.mobility != Mobility::free) {
@@ -204,7 +204,7 @@ Quality Insertion::Judge::value_of(TetId t, int i) const {
   return counts || !(q.dihedral > 0) ? q : kNotCounted;
 }
 
-std::vector<Insertion::Face>::const_iterator Insertion::worst() const {
+std::vector<Insertion::Face>::const_iterator Insertion::worst() {
   return std::ranges::min_element(operation_.skin(), {},
                                   [&](const Face& face) { return state_.score(face.value); });
 }

@@ -46,8 +46,8 @@ class Insertion {
   std::pair<double, double> extreme_edges(TetId t) const;
   bool is_too_unequal(TetId t) const;
   void grow(const Vec3& x);
-  std::vector<Face>::const_iterator face_to_cross() const;
-  std::vector<Face>::const_iterator worst() const;
+  std::vector<Face>::const_iterator face_to_cross();
+  std::vector<Face>::const_iterator worst();
   void settle(Vec3& x);
   bool in_cone(const Face& face) const;
   void build_cone();

@@ -4,6 +4,7 @@
 // A point on the surface is in a facet, or on an edge between two: its own facets. The cavity is on
 // both sides of these: no face of them is left on its skin but on the hull, and those within it are
 // tiled anew from the point. It crosses no other facet, so that the surface is the same.
+// Growing it and then asking for its skin takes time linear in its size.
 //
 // The operation only finds what is to be replaced. Who calls grows the cavity, and decides whether
 // the point sees its skin. A judge tells what the tetrahedron between the point and a face is
@@ -14,9 +15,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
+#include "mesher/base/epoch.h"
 #include "mesher/tetmesh/mesh_topology.h"
 
 namespace delmesher::tetmesh {
@@ -48,23 +51,33 @@ class InsertPoint {
     crosses_ = false;
     cavity_.clear();
     skin_.clear();
+    covered_ = false;
+    mark_.resize(mesh_.slots(), 0);
+    next_epoch(epoch_, mark_);
   }
   void add(TetId t, const Judge& judge) {
     cavity_.push_back(t);
+    mark_[t] = epoch_;
     for (int i = 0; i < 4; ++i) {
       const TetId u = mesh_.neighbor(t, i);
-      if (u == kNone || std::find(cavity_.begin(), cavity_.end(), u) == cavity_.end()) {
+      if (!contains(u)) {
         skin_.push_back({t, i, is_own(t, i) ? Judge::in_plane() : judge.value_of(t, i)});
         continue;
       }
       crosses_ = crosses_ || (mesh_.facet(t, i) != kNone && !is_own(t, i));
-      std::erase_if(
-          skin_, [&](const Face& f) { return f.tet == u && mesh_.neighbor(f.tet, f.face) == t; });
+      covered_ = true;
     }
   }
   const std::vector<TetId>& cavity() const { return cavity_; }
-  std::vector<Face>& skin() { return skin_; }
-  const std::vector<Face>& skin() const { return skin_; }
+  bool contains(TetId t) const { return t != kNone && mark_[t] == epoch_; }
+  // In the order in which its faces came.
+  std::vector<Face>& skin() {
+    if (covered_) {
+      std::erase_if(skin_, [&](const Face& f) { return contains(mesh_.neighbor(f.tet, f.face)); });
+    }
+    covered_ = false;
+    return skin_;
+  }
   bool crosses_facets() const { return crosses_; }
   // Is face i of t in a facet of the point?
   bool is_own(TetId t, int i) const {
@@ -81,7 +94,7 @@ class InsertPoint {
     outline_.clear();
     inner_.clear();
     if (crosses_) return false;
-    for (const auto& [tet, face, value] : skin_) {
+    for (const auto& [tet, face, value] : skin()) {
       if (is_own(tet, face)) {
         if (mesh_.neighbor(tet, face) != kNone) return false;
         continue;
@@ -89,7 +102,7 @@ class InsertPoint {
       created_.push_back({mesh_.tet(tet), mesh_.region(tet)});
       created_.back().vertices[face] = kNone;
     }
-    return own_[0] == kNone || (keeps_vertices(may_go) && tile_facets());
+    return keeps_vertices(may_go) && (own_[0] == kNone || tile_facets());
   }
   std::vector<CreatedTet>& created() { return created_; }
   std::vector<SurfaceFace>& faces() { return faces_; }
@@ -147,7 +160,10 @@ class InsertPoint {
   std::array<VertexId, 2> piece_ = {kNone, kNone};
   bool crosses_ = false;  // facets that are not the point's
   std::vector<TetId> cavity_;
+  std::vector<std::uint32_t> mark_;  // per slot: epoch_ in the cavity
+  std::uint32_t epoch_ = 0;
   std::vector<Face> skin_;
+  bool covered_ = false;  // some of these are no longer on the skin
   std::vector<CreatedTet> created_;
   std::vector<SurfaceFace> faces_;
   std::vector<FaceEdge> edges_, outline_, inner_;
