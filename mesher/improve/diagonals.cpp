@@ -468,11 +468,9 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& plan
                                 Predicates& predicates, Control& control) {
   Goals goals = goals_of(options);
   goals.everywhere = true;
-  const std::vector<VertexId> point = vertices_in_order(mesh, points);
+  State state(numbered(std::move(mesh), points), &planarized, given, points, predicates, goals);
   std::vector<VertexId> number(points.size(), kNone);
-  for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
-  State state(topology_of(std::move(mesh), point, points.size()), point, &planarized, given, points,
-              predicates, goals);
+  for (VertexId v = 0; v < state.mesh.vertices(); ++v) number[state.point(v)] = v;
   Entry entry(state, number, planarized, as_given, predicates, control);
   std::vector<Diagonal> missing = entry.diagonals();
   DiagonalsResult result;
@@ -485,7 +483,7 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& plan
   result.missing = missing.size();
   if (result.missing > 0) return result;
   const bool anchored = entry.anchor_all();
-  result.mesh = mesh_of(state.mesh, state.point_of_vertices());
+  result.mesh = state.conforming();
   Handover handover(planarized, as_given, points);
   if (!(anchored && handover.run(result.mesh.boundary))) result.missing = result.diagonals;
   return result;

@@ -32,9 +32,9 @@ struct Pentagon {
     }
     const std::vector<RegionId> region(tetrahedra.size(), 1);
     const Goals goals{.target = {0.14F, 0.12F, 0.16F}, .max_edge = max_edge};
-    state.emplace(MeshTopology(tetrahedra, region, boundary, 7),
-                  std::vector<VertexId>{0, 1, 2, 3, 4, 5, 6}, nullptr, std::span<const Vec3>{},
-                  points, predicates, goals);
+    state.emplace(
+        NumberedMesh{{0, 1, 2, 3, 4, 5, 6}, MeshTopology(tetrahedra, region, boundary, 7)}, nullptr,
+        std::span<const Vec3>{}, points, predicates, goals);
   }
 
   // Removes the n-th face of the pentagon.

@@ -370,9 +370,9 @@ ImproveResult improve(ConformingMesh mesh, const SurfaceTopology* topology,
   }
   ImproveResult result;
   result.became.assign(points.size(), kNone);
-  const std::vector<VertexId> point = vertices_in_order(mesh, points);
-  State state(topology_of(std::move(mesh), point, points.size()), point, topology, given, points,
-              predicates, goals_of(options));
+  NumberedMesh start = numbered(std::move(mesh), points);
+  const std::vector<VertexId> point = start.point;
+  State state(std::move(start), topology, given, points, predicates, goals_of(options));
   Improvement improvement(state, topology, options, control);
   improvement.run();
   result.spared = improvement.spared();
@@ -381,7 +381,7 @@ ImproveResult improve(ConformingMesh mesh, const SurfaceTopology* topology,
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);
   }
   result.changed = state.clock() > 0;
-  result.mesh = mesh_of(state.mesh, state.point_of_vertices());
+  result.mesh = state.conforming();
   if (topology == nullptr) {
     for (SurfaceFace& face : result.mesh.boundary) face.facet = facets[face.facet];
   }

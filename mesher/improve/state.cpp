@@ -2,11 +2,9 @@
 
 namespace delmesher::improve {
 
-State::State(MeshTopology tetrahedra, std::vector<VertexId> point, const SurfaceTopology* topology,
-             std::span<const Vec3> given, PointStore& points, Predicates& predicates,
-             const Goals& goals)
-    : ExactMesh(std::move(tetrahedra), std::move(point), topology, given, goals.as_given, points,
-                predicates),
+State::State(NumberedMesh numbered, const SurfaceTopology* surface, std::span<const Vec3> given,
+             PointStore& points, Predicates& predicates, const Goals& goals)
+    : ExactMesh(std::move(numbered), surface, given, goals.as_given, points, predicates),
       goals_(goals) {
   measure_by(Measure::shape);
   for (TetId t = 0; t < mesh.slots(); ++t) note(t);

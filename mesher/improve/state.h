@@ -43,9 +43,8 @@ enum class Measure : std::uint8_t {
 class State final : public ExactMesh {
  public:
   // Arguments as of ExactMesh.
-  State(MeshTopology tetrahedra, std::vector<VertexId> point, const SurfaceTopology* topology,
-        std::span<const Vec3> given, PointStore& points, Predicates& predicates,
-        const Goals& goals);
+  State(NumberedMesh numbered, const SurfaceTopology* surface, std::span<const Vec3> given,
+        PointStore& points, Predicates& predicates, const Goals& goals);
 
   bool counts_in(RegionId region) const { return region != kOutside || goals_.everywhere; }
   bool counts(TetId t) const { return counts_in(mesh.region(t)); }

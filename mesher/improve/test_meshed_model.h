@@ -7,12 +7,10 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 #include "mesher/improve/state.h"
-#include "mesher/tetmesh/numbering.h"
 
 namespace delmesher::improve {
 
@@ -23,21 +21,17 @@ struct MeshedModel {
     cdt::test_models::enrich(model, 2, seed);
     ConformingMesh given = model.run().mesh;
     if (inside_alone) keep_inside(given);
-    point = vertices_in_order(given, model.points);
-    const std::size_t points = model.points.size();
-    state.emplace(topology_of(std::move(given), point, points), point, &model.topology,
+    state.emplace(numbered(std::move(given), model.points), &model.topology,
                   std::span<const Vec3>{}, model.points, model.predicates, goals_of({}));
   }
 
   // By rational arithmetic, what is wrong with the mesh now.
   std::string wrong() {
     state->mesh.validate();
-    const ConformingMesh now = mesh_of(state->mesh, state->point_of_vertices());
-    return cdt::rational::Checker(model.topology, model.points, now).run();
+    return cdt::rational::Checker(model.topology, model.points, state->conforming()).run();
   }
 
   cdt::test_models::Model model;
-  std::vector<VertexId> point;
   std::optional<State> state;
 };
 

@@ -93,9 +93,8 @@ std::vector<std::vector<VertexId>> NearestMesh::coincident(std::span<const Vec3>
 }
 
 RoundedMesh::RoundedMesh(const NearestMesh& nearest)
-    : PlacedMesh(MeshTopology(nearest.mesh.tetrahedra, nearest.mesh.region, nearest.mesh.boundary,
-                              nearest.point.size()),
-                 nearest.point),
+    : PlacedMesh({nearest.point, MeshTopology(nearest.mesh.tetrahedra, nearest.mesh.region,
+                                              nearest.mesh.boundary, nearest.point.size())}),
       nearest_(nearest),
       predicates_(nearest.points),
       sign_(nearest.sign) {

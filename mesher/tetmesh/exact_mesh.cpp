@@ -11,10 +11,10 @@
 
 namespace delmesher::tetmesh {
 
-ExactMesh::ExactMesh(MeshTopology topology, std::vector<VertexId> point,
-                     const SurfaceTopology* surface, std::span<const Vec3> given, bool as_given,
-                     PointStore& points, Predicates& predicates)
-    : PlacedMesh(std::move(topology), std::move(point)),
+ExactMesh::ExactMesh(NumberedMesh numbered, const SurfaceTopology* surface,
+                     std::span<const Vec3> given, bool as_given, PointStore& points,
+                     Predicates& predicates)
+    : PlacedMesh(std::move(numbered)),
       points_(points),
       surface_(surface),
       given_(given),

@@ -58,11 +58,11 @@ class ExactMesh : public PlacedMesh {
                          std::span<SurfaceFace> faces);
 
  protected:
-  // `point`: of each vertex, in the store. `surface`: null if no vertex of it may move. `given`:
-  // its vertices as given, where it is planarized; else empty. `as_given`: changes are positive
-  // with these vertices, too. Arguments passed by reference or pointer must outlive the mesh.
-  ExactMesh(MeshTopology topology, std::vector<VertexId> point, const SurfaceTopology* surface,
-            std::span<const Vec3> given, bool as_given, PointStore& points, Predicates& predicates);
+  // `surface`: null if no vertex of it may move. `given`: its vertices as given, where it is
+  // planarized; else empty. `as_given`: changes are positive with these vertices, too. Arguments
+  // passed by reference or pointer must outlive the mesh.
+  ExactMesh(NumberedMesh numbered, const SurfaceTopology* surface, std::span<const Vec3> given,
+            bool as_given, PointStore& points, Predicates& predicates);
   ~ExactMesh() = default;
 
   void put_at(VertexId v, const Place& place);

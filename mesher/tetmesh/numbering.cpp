@@ -23,8 +23,6 @@ Tet in_order(Tet t) {
   return t;
 }
 
-}  // namespace
-
 std::vector<VertexId> vertices_in_order(const ConformingMesh& mesh, const PointStore& points) {
   std::vector<std::uint8_t> used(points.size(), 0);
   for (const Tet& t : mesh.tetrahedra) {
@@ -41,8 +39,11 @@ std::vector<VertexId> vertices_in_order(const ConformingMesh& mesh, const PointS
   return order;
 }
 
-MeshTopology topology_of(ConformingMesh mesh, std::span<const VertexId> point, std::size_t points) {
-  std::vector<VertexId> number(points, kNone);
+}  // namespace
+
+NumberedMesh numbered(ConformingMesh mesh, const PointStore& points) {
+  std::vector<VertexId> point = vertices_in_order(mesh, points);
+  std::vector<VertexId> number(points.size(), kNone);
   for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
   {  // gone before the topology finds its neighbours, which takes the most memory
     std::vector<std::pair<Tet, RegionId>> sorted;
@@ -60,7 +61,8 @@ MeshTopology topology_of(ConformingMesh mesh, std::span<const VertexId> point, s
   for (SurfaceFace& face : mesh.boundary) {
     for (VertexId& v : face.vertices) v = number[v];
   }
-  return {std::move(mesh.tetrahedra), mesh.region, mesh.boundary, point.size()};
+  MeshTopology topology(std::move(mesh.tetrahedra), mesh.region, mesh.boundary, point.size());
+  return {std::move(point), std::move(topology)};
 }
 
 ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point) {

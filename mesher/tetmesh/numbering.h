@@ -2,7 +2,6 @@
 // back.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,13 +11,14 @@
 
 namespace delmesher::tetmesh {
 
-// The vertices of a mesh along a Hilbert curve.
-std::vector<VertexId> vertices_in_order(const ConformingMesh& mesh, const PointStore& points);
-
-// The mesh in numbers of its own vertices; `point`: of each, in the store of `points` points.
-// Tetrahedra and their vertices are in the order of those numbers, so that it does not matter in
-// which order they were given.
-MeshTopology topology_of(ConformingMesh mesh, std::span<const VertexId> point, std::size_t points);
+// A mesh in numbers of its own vertices, which are along a Hilbert curve. Tetrahedra and their
+// vertices are in the order of those numbers, so that it does not matter in which order they were
+// given.
+struct NumberedMesh {
+  std::vector<VertexId> point;  // of each vertex, in the store
+  MeshTopology topology;
+};
+NumberedMesh numbered(ConformingMesh mesh, const PointStore& points);
 
 // With points of the store again. A face of the surface is seen from the side that tells of it.
 ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point);

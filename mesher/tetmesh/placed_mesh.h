@@ -19,6 +19,7 @@
 #include "mesher/predicates/signs_of_doubles.h"
 #include "mesher/tetmesh/mesh_topology.h"
 #include "mesher/tetmesh/mobility.h"
+#include "mesher/tetmesh/numbering.h"
 
 namespace delmesher::tetmesh {
 
@@ -33,7 +34,7 @@ class PlacedMesh {
   MeshTopology mesh;
 
   VertexId point(VertexId v) const { return point_[v]; }
-  std::span<const VertexId> point_of_vertices() const { return point_; }
+  ConformingMesh conforming() const { return mesh_of(mesh, point_); }
   const Vec3& position(VertexId v) const { return position_[v]; }
   std::span<const Vec3> positions() const { return position_; }
   Mobility mobility(VertexId v) const { return mobility_[v]; }
@@ -68,9 +69,9 @@ class PlacedMesh {
                std::span<const SurfaceFace> faces);
 
  protected:
-  PlacedMesh(MeshTopology topology, std::vector<VertexId> point)
-      : mesh(std::move(topology)),
-        point_(std::move(point)),
+  explicit PlacedMesh(NumberedMesh numbered)
+      : mesh(std::move(numbered.topology)),
+        point_(std::move(numbered.point)),
         mobility_(point_.size(), Mobility::free),
         changed_at_(point_.size(), 0) {}
   ~PlacedMesh() = default;
