@@ -222,20 +222,21 @@ struct WayBack {
   Session& s;
   Recorder& recorder;
   const std::size_t points = s.points.size();
+  SurfaceAsGiven given = as_given(s);
   std::optional<ConformingMesh> mesh{};
 
   bool good_enough() const { return mesh.has_value(); }
 
   void attempt() {
     improve::DiagonalsResult entered = improve::enter_diagonals(
-        planarized, s.surface.topology(), as_given(s).topology, s.surface.given_vertices(),
+        planarized, s.surface.topology(), given.topology, s.surface.given_vertices(),
         improve_options(Region::hull, s), s.points, s.predicates, s.control);
     recorder.put_back(entered.diagonals, entered.missing);
-    if (entered.missing == 0 && go_back(entered.mesh, s)) mesh = std::move(entered.mesh);
+    if (entered.missing == 0 && go_back(entered.mesh, given, s)) mesh = std::move(entered.mesh);
   }
   void tetrahedrize_again() {
     s.points.truncate(points);
-    mesh = tetrahedrize_as_given(planarized, s).mesh;
+    mesh = tetrahedrize_as_given(planarized, std::move(given), s).mesh;
     if (s.options.region == Region::interior) keep_inside(*mesh);
   }
 };

@@ -110,7 +110,6 @@ SurfaceAsGiven as_given(const Session& session) {
   result.topology =
       build_topology({{given.begin(), given.end()}, planarized.triangles, planarized.labels},
                      result.points, predicates);
-  append_as_given(session.points, given, result.points);
   return result;
 }
 
@@ -120,13 +119,14 @@ void return_to(SurfaceAsGiven as_given, Session& session) {
   session.points = std::move(as_given.points);
 }
 
-bool go_back(const ConformingMesh& mesh, Session& session) {
-  SurfaceAsGiven returned = as_given(session);
+bool go_back(const ConformingMesh& mesh, SurfaceAsGiven& as_given, Session& session) {
+  const std::span<const Vec3> given = session.surface.given_vertices();
   PointStore without_supports;
-  append_as_given(session.points, session.surface.given_vertices(), without_supports);
-  if (!conforms(mesh, returned.topology, without_supports, session.control)) return false;
-  set_supports(mesh, session, returned);
-  return_to(std::move(returned), session);
+  append_as_given(session.points, given, without_supports);
+  if (!conforms(mesh, as_given.topology, without_supports, session.control)) return false;
+  append_as_given(session.points, given, as_given.points);
+  set_supports(mesh, session, as_given);
+  return_to(std::move(as_given), session);
   return true;
 }
 

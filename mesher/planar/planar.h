@@ -25,21 +25,21 @@ bool goes_back(const Options& options);
 PlanarizedSurface enter_surface(const Surface& surface, const ValidityResult& validity,
                                 Planes planes, Session& session);
 
-// The surface as given, whose triangles are those of the session's planarized surface, and the
-// session's points by the same definitions and numbers on its vertices. Vertices have supports,
-// other points have none.
+// The surface as given, whose triangles are those of the session's planarized surface, and its
+// vertices, with supports.
 struct SurfaceAsGiven {
   SurfaceTopology topology;
   PointStore points;
 };
 SurfaceAsGiven as_given(const Session& session);
 
-// From now on the session is one of the surface as given.
+// From now on the session is one of the surface as given, and `points` are the session's, by the
+// same definitions and numbers, on its vertices.
 void return_to(SurfaceAsGiven as_given, Session& session);
 
 // The same for a mesh whose faces have the facets of the surface as given, if, by exact signs, all
 // tetrahedra are positive on that surface and every face is on its facet. Otherwise nothing changes
 // and the result is false.
-bool go_back(const ConformingMesh& mesh, Session& session);
+bool go_back(const ConformingMesh& mesh, SurfaceAsGiven& as_given, Session& session);
 
 }  // namespace delmesher::planar

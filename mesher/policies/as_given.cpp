@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "mesher/enrich/enrichment.h"
-#include "mesher/planar/planar.h"
+#include "mesher/surface/given_place.h"
 
 namespace delmesher::policies {
 
-cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, Session& session) {
-  SurfaceAsGiven returned = as_given(session);
+cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, SurfaceAsGiven returned,
+                                     Session& session) {
+  append_as_given(session.points, session.surface.given_vertices(), returned.points);
   double farthest = 0;
   for (VertexId v = 0; v < session.input_vertices(); ++v) {
     farthest = std::max(farthest, distance(returned.points.nearest(v), session.points.nearest(v)));

@@ -6,7 +6,6 @@
 
 #include "mesher/cdt/cdt_reference.h"
 #include "mesher/cdt/test_models.h"
-#include "mesher/planar/planar.h"
 #include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::policies {
@@ -91,7 +90,7 @@ TEST(AsGiven, IsTetrahedrizedWithThePointsOnEdgesAndInTheVolume) {
     const std::vector<VertexId> kept = c.input.vertices;
     c.put_in_facets();
     const std::size_t facets = c.topology().facet_triangles.size();
-    const cdt::CdtResult again = tetrahedrize_as_given(c.mesh(), c.session);
+    const cdt::CdtResult again = tetrahedrize_as_given(c.mesh(), as_given(c.session), c.session);
     EXPECT_EQ(c.wrong(again), "");
     EXPECT_GT(c.topology().facet_triangles.size(), facets);
     EXPECT_FALSE(c.session.surface.is_planarized());
@@ -125,7 +124,7 @@ TEST(AsGiven, PointsThatTheSurfaceComesUponAreLeftOut) {
     }
   }
   EXPECT_GT(added, 10U);
-  EXPECT_EQ(c.wrong(tetrahedrize_as_given(c.mesh(), c.session)), "");
+  EXPECT_EQ(c.wrong(tetrahedrize_as_given(c.mesh(), as_given(c.session), c.session)), "");
 }
 
 }  // namespace
