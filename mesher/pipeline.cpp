@@ -347,9 +347,10 @@ struct Keeping {
     s.control.enter(Phase::improve);
     keep_inside(mesh);
   }
-  void fill_and_improve() {
+  void fill_and_improve(bool unfinished = false) {
     improve::ImproveOptions options = improve_options(Region::interior, s);
     options.keep_surface = true;
+    options.unfinished = unfinished;
     improve::ImproveResult improved = improve::improve(std::move(mesh), &s.surface.topology(), {},
                                                        options, s.points, s.predicates, s.control);
     mesh = std::move(improved.mesh);
@@ -361,7 +362,7 @@ struct Keeping {
     tetrahedrize();
     const std::vector<std::uint8_t>& is_flat = s.surface.topology().edge_is_flat;
     if (std::ranges::find(is_flat, 1) == is_flat.end()) return;
-    fill_and_improve();
+    fill_and_improve(true);
     SurfaceTopology each = with_facet_per_triangle(s.surface.topology());
     improve::DiagonalsResult entered = improve::enter_diagonals(
         std::move(mesh), s.surface.topology(), each, {}, {}, s.points, s.predicates, s.control);

@@ -271,6 +271,10 @@ bool Filling::is_positive(const Place& place) {
 }
 
 bool Filling::insert(TetId start, const Vec3& x) {
+  // Most points are much too near: that is seen here, before there is a cavity.
+  constexpr double kMuch = 0.5;
+  cavity_.assign(1, start);
+  if (!has_room(x, kMuch * size_at(x))) return false;
   grow(start, x);
   const double size = size_at(x);
   if (!has_room(x, size) || !cut_back(start, x) || !find_created()) return false;

@@ -1,6 +1,7 @@
 #include "mesher/improve/improve.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "mesher/base/validating.h"
@@ -39,6 +40,7 @@ class Improvement {
   void run() {
     if (options_.keep_surface) {
       clear_surface();
+      coarsen();
       Filling(state_, goals_, control_).run();
     }
     begin(0.1);
@@ -46,7 +48,7 @@ class Improvement {
     begin(0.25);
     repair(kNotGood);
     insert_ = true;
-    tried_.clear();
+    failed_.tetrahedra.clear();
     begin(0.08);
     coarsen();
     begin(0.05);
@@ -59,6 +61,7 @@ class Improvement {
     polish_vertices();
     begin(0.03);
     repair();
+    if (options_.unfinished) return;
     mend();
     if (options_.keep_surface) clear_rest();
   }
@@ -192,12 +195,12 @@ class Improvement {
     const int passes = kPassesForBad + (first > State::kBad ? 1 : 0);
     for (int pass = 0; pass < passes; ++pass) {
       const float limit = pass == 0 ? first : State::kBad;
-      tried_.resize(state_.mesh.slots(), 0);
-      failed_score_.resize(state_.mesh.slots(), -1);
+      failed_.tetrahedra.resize(state_.mesh.slots(), 0);
+      failed_.score.resize(state_.mesh.slots(), -1);
       work.clear();
       for (TetId t = 0; t < state_.mesh.slots(); ++t) {
-        if (!state_.mesh.alive(t) || !is_to_be_tried(t, limit) || !changed_since(t, tried_[t]) ||
-            is_as_it_failed(t)) {
+        if (!state_.mesh.alive(t) || !is_to_be_tried(t, limit) ||
+            !changed_since(t, failed_.tetrahedra[t]) || is_as_it_failed(t)) {
           continue;
         }
         work.emplace_back(state_.score(t), t);
@@ -211,8 +214,8 @@ class Improvement {
         if (attempt(t)) {
           ++successes;
         } else {
-          tried_[t] = state_.clock() + 1;
-          failed_score_[t] = score;
+          failed_.tetrahedra[t] = state_.clock() + 1;
+          failed_.score[t] = score;
         }
       }
       left /= 2;
@@ -225,14 +228,15 @@ class Improvement {
   // The last resort for what is bad by its dihedral angles: they alone count, and points are put in
   // on the surface, too.
   void mend() {
-    mending_ = true;
-    state_.measure_by(Measure::dihedrals);
-    forget_failures();
+    measure_by(Measure::dihedrals);
     begin(0);
     repair();
   }
-  void forget_failures() {
-    for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
+  // What failed by one measure may succeed by the other.
+  void measure_by(Measure measure) {
+    mending_ = measure == Measure::dihedrals;
+    state_.measure_by(measure);
+    std::swap(failed_, failed_by_other_);
   }
 
   // Steiner points leave the edges of the surface: along the edge if all tetrahedra stay positive,
@@ -245,11 +249,28 @@ class Improvement {
       for (VertexId v = 0; v < limit; ++v) {
         poll(0);
         if (!is_to_leave(v)) continue;
-        if (collapse_.run(v, state_.to_reach(0)) || relocation_.run(v, fine)) any = true;
+        if (leave(v, fine) || (fine && clear_around(v) && leave(v, fine))) any = true;
       }
     }
     state_.bound_edges(true);
     validate();
+  }
+  bool leave(VertexId v, bool fine) {
+    return collapse_.run(v, state_.to_reach(0)) || relocation_.run(v, fine);
+  }
+  // Takes out neighbours in the volume that leave v no room. Did any go?
+  bool clear_around(VertexId v) {
+    std::vector<TetId> star;
+    state_.mesh.star(v, star);
+    std::vector<VertexId> free;
+    for (const TetId t : star) {
+      std::ranges::copy_if(state_.mesh.tet(t), std::back_inserter(free),
+                           [&](VertexId w) { return state_.mobility(w) == Mobility::free; });
+    }
+    std::ranges::sort(free);
+    free.erase(std::unique(free.begin(), free.end()), free.end());
+    return std::ranges::count_if(
+               free, [&](VertexId w) { return collapse_.run(w, state_.to_reach(0)); }) > 0;
   }
   bool is_to_leave(VertexId v) const {
     return state_.mesh.incident(v) != kNone && state_.mobility(v) != Mobility::free &&
@@ -260,9 +281,7 @@ class Improvement {
   void clear_rest() {
     constexpr int kMostRounds = 4;
     for (int round = 0; round < kMostRounds && left() > 0; ++round) {
-      mending_ = false;
-      state_.measure_by(Measure::shape);
-      forget_failures();
+      measure_by(Measure::shape);
       clear_surface(round > 0);
       repair(kNotGood);
       coarsen();
@@ -276,7 +295,7 @@ class Improvement {
 
   // In the rounds most changes are beside tetrahedra that nothing has mended before. They are tried
   // again when the rounds are over.
-  bool is_as_it_failed(TetId t) const { return in_rounds_ && failed_score_[t] == state_.score(t); }
+  bool is_as_it_failed(TetId t) const { return in_rounds_ && failed_.score[t] == state_.score(t); }
 
   bool in_vain(std::size_t attempts, std::size_t successes) const {
     return attempts > state_.mesh.slots() / 100 && successes < attempts / 6;
@@ -292,7 +311,7 @@ class Improvement {
     const Tet tet = state_.mesh.tet(t);
     // The ring of an edge has changed only if there was a change at both of its ends.
     for (const auto& [i, j] : kEdge) {
-      if (edges_.run(t, i, j, tried_)) return true;
+      if (edges_.run(t, i, j, failed_.tetrahedra)) return true;
     }
     for (int i = 0; i < 4; ++i) {
       if (!face_failed(t, i) && faces_.run(t, i)) return true;
@@ -311,14 +330,14 @@ class Improvement {
   // From the other side, and neither side has changed since.
   bool face_failed(TetId t, int i) const {
     const TetId u = state_.mesh.neighbor(t, i);
-    return u != kNone && u < tried_.size() && !changed_since(u, tried_[u]);
+    return u != kNone && u < failed_.tetrahedra.size() && !changed_since(u, failed_.tetrahedra[u]);
   }
 
   bool smooth(VertexId v) {
-    return unless_tried(v, smooth_tried_, [&] { return smoothing_.improve_worst(v); });
+    return unless_tried(v, failed_.smoothing, [&] { return smoothing_.improve_worst(v); });
   }
   bool collapse(VertexId v) {
-    return unless_tried(v, collapse_tried_, [&] { return collapse_.run(v); });
+    return unless_tried(v, failed_.collapse, [&] { return collapse_.run(v); });
   }
 
   // Not again where nothing has changed since it failed.
@@ -351,8 +370,13 @@ class Improvement {
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
   // The clock when attempts failed, plus 1: per slot, and per vertex.
-  std::vector<std::uint32_t> tried_, edges_tried_, smooth_tried_, collapse_tried_, polish_tried_;
-  std::vector<float> failed_score_;  // of the tetrahedron of the slot when it was tried last
+  // When tetrahedra and vertices were tried in vain: the clock plus 1; per slot and per vertex.
+  struct Failed {
+    std::vector<std::uint32_t> tetrahedra, smoothing, collapse;
+    std::vector<float> score;  // of the tetrahedron of the slot when it was tried last
+  };
+  Failed failed_, failed_by_other_;  // by what is measured, and by the other measure
+  std::vector<std::uint32_t> edges_tried_, polish_tried_;
 };
 
 }  // namespace

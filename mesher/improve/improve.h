@@ -38,6 +38,8 @@ struct ImproveOptions {
   // No vertex is added to the surface, those that are not of the input leave it, and the volume is
   // filled with points (filling.h).
   bool keep_surface = false;
+  // The mesh will be improved once more: the last resorts wait.
+  bool unfinished = false;
 };
 
 struct ImproveResult {

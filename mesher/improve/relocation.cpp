@@ -33,13 +33,19 @@ bool Relocation::run(VertexId v, bool fine) {
   find_created();
   Vec3 x{};
   if (!find_place(fine, x)) return false;
-  const Place place = state_.new_place(x, norm(subtract(x, state_.position(v))) * State::kGrid);
-  if (!fits(place)) {
+  // In a thin wedge the place has to be finer than it is far from v.
+  constexpr int kMostGrids = 4;
+  double tolerance = norm(subtract(x, state_.position(v)));
+  for (int n = 0; n < kMostGrids; ++n) {
+    tolerance *= State::kGrid;
+    const Place place = state_.new_place(x, tolerance);
+    if (fits(place)) {
+      state_.insert_on_surface(place, Mobility::free, kNone, star_, created_, faces_);
+      return true;
+    }
     state_.forget(place);
-    return false;
   }
-  state_.insert_on_surface(place, Mobility::free, kNone, star_, created_, faces_);
-  return true;
+  return false;
 }
 
 // False if there are tetrahedra on both sides of the surface.
@@ -78,7 +84,7 @@ std::vector<VertexId> Relocation::outline(std::span<const Face> fan) {
 }
 
 // Tiles the facet without v: ears are cut off opposite the edge with v. None of them contains
-// another vertex, because v sees all of the polygon. False if doubles see no ear.
+// another vertex, because v sees all of the polygon. fits() decides where doubles see no ear.
 bool Relocation::tile(FacetId facet) {
   std::vector<Face> fan;
   Vec3& normal = normals_.emplace_back();
@@ -109,10 +115,10 @@ void Relocation::put_on(const std::array<VertexId, 3>& face, const Face& model) 
   created_.push_back({tet, state_.mesh.region(model.tet)});
 }
 
-// The roundest one; 0 if there is none.
+// The roundest one, or the least inverted; 0 if none has a shape in doubles.
 std::size_t Relocation::best_ear(const std::vector<VertexId>& polygon, const Vec3& normal) const {
   std::size_t best = 0;
-  double roundest = 0;
+  double roundest = -HUGE_VAL;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Vec3 &a = state_.position(polygon[i - 1]), &b = state_.position(polygon[i]),
                &c = state_.position(polygon[i + 1]);
@@ -163,6 +169,7 @@ bool Relocation::find_place(bool fine, Vec3& best) const {
     return n < kHalvings || (fine && score == 0 && n < kFineHalvings);
   };
   for (int n = 0; goes_on(n); ++n, step /= 2) {
+    const float before = score;
     for (const Vec3& x :
          {add_scaled(at, step * longest, direction), add_scaled(at, step, centre)}) {
       const float here = worst_at(x);
@@ -170,17 +177,19 @@ bool Relocation::find_place(bool fine, Vec3& best) const {
       score = here;
       best = x;
     }
+    if (score > 0 && score == before) break;
   }
   return score > 0;
 }
 
-// The score of the worst new tetrahedron with the point at x; 0 if one is not positive.
+// Squared: the sine of the smallest dihedral angle of the new tetrahedra with the point at x; 0 if
+// one is not positive. (Other measures are beyond the range of floats where all is flat.)
 float Relocation::worst_at(const Vec3& x) const {
   float worst = HUGE_VALF;
   for (const CreatedTet& tet : created_) {
     const Quality q = state_.quality_with(tet.vertices, corner_of_point(tet), x);
     if (!(q.dihedral > 0)) return 0;
-    worst = std::min(worst, state_.score(q));
+    worst = std::min(worst, q.dihedral);
   }
   return worst;
 }

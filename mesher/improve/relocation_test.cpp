@@ -49,6 +49,25 @@ TEST(Relocation, TakesPointsOffTheirEdgesAndKeepsTheSurface) {
   EXPECT_LT(failed, moved / 20);
 }
 
+// Between two facets that are thinner at the edge than the grid of new places is fine.
+TEST(Relocation, FindsRoomInThinWedges) {
+  for (const double half : {1e-2, 1e-4}) {
+    Surface wedge;
+    wedge.vertices = {{0, 0, 0}, {1, 0.1, 0}, {0.4, 1, half}, {0.6, 0.9, -half}};
+    for (auto& v : wedge.vertices) v[2] += 0.3 * v[0] + 0.7 * v[1];
+    wedge.triangles = {{0, 1, 2}, {1, 0, 3}, {1, 3, 2}, {3, 0, 2}};
+    std::size_t moved = 0;
+    for (std::uint32_t seed = 1; seed < 8; ++seed) {
+      Case c(wedge, true, seed);
+      Relocation relocation(*c.state);
+      for (const VertexId v : c.on_edges()) moved += relocation.run(v, true) ? 1 : 0;
+      EXPECT_TRUE(c.on_edges().empty()) << half;
+      EXPECT_EQ(c.wrong(), "") << half;
+    }
+    EXPECT_GT(moved, 0U);
+  }
+}
+
 // The other side would have to be tiled, too.
 TEST(Relocation, LeavesPointsWithTetrahedraOnBothSides) {
   Case c(box(0, 1), false, 1);
