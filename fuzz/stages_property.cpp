@@ -143,8 +143,8 @@ std::vector<std::uint8_t> used_points(const delmesher::tetmesh::ConformingMesh& 
 // what doubles tell of one that is flat except for roundings depends on it.
 delmesher::tetmesh::ConformingMesh as_measured(const delmesher::tetmesh::ConformingMesh& given,
                                                const Stages& s) {
-  const auto point = vertices_in_order(given, s.points);
-  return mesh_of(topology_of(given, point, s.points.size()), point);
+  const auto [point, topology] = numbered(given, s.points);
+  return mesh_of(topology, point);
 }
 
 // The worst quality of the tetrahedra inside, as they will be written.
