@@ -96,4 +96,58 @@ double noise_of_bends(const std::vector<double>& bends, double rounding, double 
   return noise;
 }
 
+double roughness(const Surface& surface, double rounding, double noise) {
+  constexpr double kAlike = 0.95, kTimes = 2;  // cosine; of the length
+  constexpr std::size_t kFewest = 32, kManyEdges = 32;
+  struct BentEdge {
+    std::array<std::uint32_t, 4> corners;  // the first two are its ends
+    Vec3 along;
+    double length, bend;
+  };
+  std::vector<BentEdge> bent;
+  std::vector<std::vector<std::uint32_t>> at(surface.vertices.size());
+  const HalfEdgeGroups edges(surface.triangles, surface.vertices.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges[e];
+    if (h.size() != 2) continue;
+    const double x = bend(surface, h[0], h[1]);
+    if (!(std::fabs(x) > rounding) || std::fabs(x) > 4 * noise) continue;
+    const auto corner = [&](std::uint32_t edge, std::uint32_t k) {
+      return surface.triangles[edge / 3][(edge % 3 + k) % 3];
+    };
+    const std::uint32_t a = corner(h[0], 0), b = corner(h[0], 1);
+    const Vec3 along = subtract(surface.vertices[b], surface.vertices[a]);
+    for (const std::uint32_t v : {a, b}) at[v].push_back(static_cast<std::uint32_t>(bent.size()));
+    bent.push_back({{a, b, corner(h[0], 2), corner(h[1], 2)}, along, norm(along), x});
+  }
+  double differences = 0, squares = 0;
+  std::size_t telling = 0;
+  std::vector<std::uint32_t> beside;
+  for (std::uint32_t i = 0; i < bent.size(); ++i) {
+    const BentEdge& edge = bent[i];
+    if (std::fabs(edge.bend) > noise) continue;
+    beside.clear();
+    for (const std::uint32_t v : edge.corners) {
+      if (at[v].size() <= kManyEdges) beside.insert(beside.end(), at[v].begin(), at[v].end());
+    }
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    bool tells = false;
+    for (const std::uint32_t j : beside) {
+      const BentEdge& other = bent[j];
+      const double product = edge.length * other.length;
+      if (j == i || !(std::fabs(dot(edge.along, other.along)) > kAlike * product) ||
+          edge.length > kTimes * other.length || other.length > kTimes * edge.length) {
+        continue;
+      }
+      const double difference = edge.bend - other.bend;
+      differences += difference * difference;
+      squares += edge.bend * edge.bend + other.bend * other.bend;
+      tells = true;
+    }
+    telling += tells ? 1 : 0;
+  }
+  return telling >= kFewest ? differences / squares : 1;
+}
+
 }  // namespace delmesher::planar

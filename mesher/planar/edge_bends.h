@@ -30,4 +30,11 @@ std::vector<double> edge_bends(const Surface& surface);
 double noise_of_bends(const std::vector<double>& bends, double rounding, double least, double most,
                       std::ptrdiff_t fewest);
 
+// Noise bends an edge whatever it does to the next one; where edges were meant to be bent, those
+// beside each other, as long and in the same direction, are bent alike. Returns the mean square of
+// the differences of such edges over that of two independent ones, for edges bent by more than
+// `rounding` and up to `noise`: around 1 or more of noise, hardly anything of a smooth surface. 1
+// if fewer than 32 edges tell.
+double roughness(const Surface& surface, double rounding, double noise);
+
 }  // namespace delmesher::planar

@@ -87,6 +87,7 @@ double flatness(const Surface& surface, Control& control) {
   constexpr double kOfRounding = 1.5, kMostRounded = 0x1p-14;  // of the diagonal
   constexpr double kMostNoise = kMostRounded / 4;
   constexpr std::ptrdiff_t kFewest = 8;
+  constexpr double kRough = 0.45;
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   double largest = 0;
   for (const Vec3& v : surface.vertices) {
@@ -111,7 +112,7 @@ double flatness(const Surface& surface, Control& control) {
   const auto look_for_noise = [&](double resolved, std::ptrdiff_t fewest) {
     // Less than half is flat already.
     const double noise = noise_of_bends(all, resolved, result / 2, kMostNoise * diagonal, fewest);
-    if (noise == 0) return;
+    if (noise == 0 || roughness(surface, resolved, noise) < kRough) return;
     if (!groups) groups.emplace(surface, control);
     result = std::max(result, bend_of_noise(*groups, result, noise));
   };

@@ -19,14 +19,14 @@ namespace delmesher::planar {
 //
 // Coordinates may be noisier than their digits tell: they were rounded more than once, or are
 // integers. If the bends alone tell of noise (`noise_of_bends`), it returns two to four times that
-// noise: twice, unless more makes further planar groups one with others, and then hardly any. That
-// is if it makes at least three of a hundred groups one with others, and twice as much hardly more:
-// not one in ten, not a fiftieth as many, or not one in four and not a third as many. Faces that
-// are flat except for noise stay the same, those of a curved surface grow together more and more.
-// At most 2^-14 of the diagonal, too. Bends that the coordinates cannot resolve (up to 1.25 of the
-// rounding), or below 2^-22 of the diagonal, may hide such noise, so it is looked for without them
-// as well; then at least 16 edges have to tell of it, not 8. In the units of the surface, which is
-// valid.
+// noise, unless edges beside each other are bent alike (`roughness`, below 0.45): twice, unless
+// more makes further planar groups one with others, and then hardly any. That is if it makes at
+// least three of a hundred groups one with others, and twice as much hardly more: not one in ten,
+// not a fiftieth as many, or not one in four and not a third as many. Faces that are flat except
+// for noise stay the same, those of a curved surface grow together more and more. At most 2^-14 of
+// the diagonal, too. Bends that the coordinates cannot resolve (up to 1.25 of the rounding), or
+// below 2^-22 of the diagonal, may hide such noise, so it is looked for without them as well; then
+// at least 16 edges have to tell of it, not 8. In the units of the surface, which is valid.
 double flatness(const Surface& surface, Control& control);
 
 }  // namespace delmesher::planar

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/planar/edge_bends.h"
 #include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::planar {
@@ -162,6 +163,67 @@ TEST(Flatness, CoarserRoundingsDoNotFlattenWhatIsCurved) {
         in_decimals(scaled(rotated(prism(ellipse(1000), 1)), 1e5 / 3), 1)}) {
     EXPECT_LE(flatness(curved), 0x1p-20 * diagonal(curved));
   }
+}
+
+// A tube along a knot on a torus, whose sections turn as little as they can. Its edges are bent by
+// all small sizes, to both sides.
+Surface knot_tube(double p, double q, std::uint32_t along, std::uint32_t around) {
+  const double turn = 2 * std::acos(-1.0), radius = 0.08;
+  const auto centre = [&](double t) -> Point {
+    const double r = 2 + std::cos(q * t);
+    return {r * std::cos(p * t), r * std::sin(p * t), std::sin(q * t)};
+  };
+  const auto unit = [](Point v) {
+    const double length = std::hypot(v[0], v[1], v[2]);
+    return Point{v[0] / length, v[1] / length, v[2] / length};
+  };
+  const auto less = [](const Point& a, double x, const Point& b) {
+    return Point{a[0] - x * b[0], a[1] - x * b[1], a[2] - x * b[2]};
+  };
+  const auto dot = [](const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  const auto cross = [](const Point& a, const Point& b) {
+    return Point{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  std::vector<Point> tangent, side;
+  for (std::uint32_t i = 0; i <= along; ++i) {
+    const double t = turn * i / along, h = 1e-4;
+    tangent.push_back(unit(less(centre(t + h), 1, centre(t - h))));
+    const Point before = i == 0 ? centre(t) : side.back();
+    side.push_back(unit(less(before, dot(before, tangent[i]), tangent[i])));
+  }
+  // Once around, a section has turned by this much.
+  const double twist =
+      std::atan2(dot(cross(side[along], side[0]), tangent[0]), dot(side[along], side[0]));
+  Surface tube;
+  for (std::uint32_t i = 0; i < along; ++i) {
+    const Point c = centre(turn * i / along), u = side[i], w = cross(tangent[i], u);
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const double a = turn * j / around + twist * i / along;
+      tube.vertices.push_back(less(less(c, -radius * std::cos(a), u), -radius * std::sin(a), w));
+      const std::uint32_t k = (i + 1) % along, l = (j + 1) % around;
+      tube.triangles.push_back({i * around + j, k * around + l, k * around + j});
+      tube.triangles.push_back({i * around + j, i * around + l, k * around + l});
+    }
+  }
+  return tube;
+}
+
+// Bends of a smooth surface are like their neighbours', those of noise are not, even of the same
+// sizes.
+TEST(Flatness, ShapeIsNoNoise) {
+  for (const auto& [p, q, along, around] : {std::array<std::uint32_t, 4>{7, 5, 360, 4},
+                                            {7, 5, 180, 8},
+                                            {7, 5, 360, 6},
+                                            {5, 7, 360, 3},
+                                            {5, 7, 480, 4},
+                                            {5, 7, 300, 5}}) {
+    const Surface tube = knot_tube(p, q, along, around);
+    EXPECT_LE(flatness(tube), 0x1.0001p-20 * diagonal(tube)) << p << " " << q << " " << along;
+  }
+  EXPECT_LT(roughness(knot_tube(7, 5, 360, 4), 0, 1e-4), 0.2);
+  EXPECT_GT(roughness(jittered(rotated(box({0, 0, 0}, {1, 2, 3}, 8)), 1e-5), 0, 1e-4), 0.8);
 }
 
 TEST(Flatness, ScalesWithTheSurface) {
