@@ -26,4 +26,16 @@ PlaneOptions paper_plane_options();
 // StatusCode::invalid_surface with a message that names the offending vertices or segments.
 PlaneResult triangulate_polygon(const PlanarGraph& graph, const PlaneOptions& options = {});
 
+// Can the inside of a graph be meshed? If not, what is wrong, and where? Decided exactly.
+GraphReport check_graph(const PlanarGraph& graph, const TimeLimit& limits = {});
+
+// "equal vertices", "crossing", ...
+const char* defect_name(GraphDefect defect);
+
+// Merges vertices at the same place or no farther apart than `weld`, drops segments without length
+// and those that repeat others, cuts overlapping segments at each other's ends and crossing ones at
+// their crossings. A crossing is rounded; nothing else moves, unless it is merged.
+GraphRepairResult repair_graph(const PlanarGraph& graph, double weld = 0,
+                               const TimeLimit& limits = {});
+
 }  // namespace delmesher

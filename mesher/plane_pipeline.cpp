@@ -13,6 +13,7 @@
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/enrich.h"
 #include "mesher/plane/graph.h"
+#include "mesher/plane/mending.h"
 #include "mesher/plane/mesh_to_write.h"
 #include "mesher/plane/refine.h"
 #include "mesher/plane/rounding.h"
@@ -52,7 +53,7 @@ InputGraph check(const PlanarGraph& input, Session& s, Recorder& recorder) {
   recorder.checked(graph);
   if (s.options.region == Region::interior &&
       std::count(graph.inside.begin(), graph.inside.end(), 1) == 0) {
-    refuse("the segments enclose nothing");
+    refuse("the segments enclose nothing (--region hull meshes the rectangle around them)");
   }
   const bool box_is_seen = s.options.region == Region::hull || s.options.want_exact;
   if (box_is_seen && !box_is_finite(graph, s.points)) {
@@ -72,6 +73,10 @@ Chamfered filter_and_chamfer(const InputGraph& graph, Sparing& sparing, Session&
   options.everywhere = s.options.region == Region::hull;
   Chamfered result = chamfer(graph, s.points, s.predicates, options, sparing.spared(), s.control);
   recorder.chamfered(result);
+  // Of wedges and channels of all widths, in the mesh: 1.15 to 1.3 triangles for a square.
+  constexpr double kPerSquare = 1.25, kPerVertex = 8;
+  if (s.options.tau > 0)
+    s.control.predict(kPerSquare * result.channel_squares + kPerVertex * graph.vertices);
   return result;
 }
 
@@ -152,6 +157,33 @@ std::uint64_t default_limit(const PlanarGraph& graph) {
   return std::min(10'000'000 + 64 * static_cast<std::uint64_t>(graph.vertices.size()), kMost);
 }
 
+// Of the inside, rounded.
+double area_of(const InputGraph& graph, const PointStore& points) {
+  double area = 0;
+  for (TriangleId t = 0; t < graph.base.size(); ++t) {
+    if (graph.inside[t] == 0) continue;
+    const auto corner = [&](int i) { return points.nearest(graph.base.origin(edge_of(t, i))); };
+    const Vec3 a = corner(0), b = corner(1), c = corner(2);
+    area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+  }
+  return std::ldexp(area, 2 * graph.scale);
+}
+
+std::vector<std::string> hints_of(const GraphReport& report) {
+  const auto any = [&](GraphDefect kind) {
+    return !report.places[static_cast<std::size_t>(kind)].empty();
+  };
+  std::vector<std::string> hints;
+  if (any(GraphDefect::equal_vertices) || any(GraphDefect::no_length)) {
+    hints.emplace_back(
+        "`delmesher repair` merges vertices at the same place and drops segments without length");
+  }
+  if (any(GraphDefect::overlap) || any(GraphDefect::crossing)) {
+    hints.emplace_back("`delmesher repair` makes a vertex of each crossing and cuts overlaps");
+  }
+  return hints;
+}
+
 }  // namespace
 }  // namespace delmesher::plane
 
@@ -173,6 +205,53 @@ PlaneResult triangulate_polygon(const PlanarGraph& graph, const PlaneOptions& gi
     return {};
   });
   recorder.finish();
+  return result;
+}
+
+const char* defect_name(GraphDefect defect) {
+  static constexpr std::array<const char*, kGraphDefects> kNames = {
+      "equal vertices", "segment without length", "overlap", "crossing"};
+  return kNames[static_cast<std::size_t>(defect)];
+}
+
+GraphReport check_graph(const PlanarGraph& graph, const TimeLimit& given) {
+  GraphReport report;
+  PlaneOptions options;
+  static_cast<TimeLimit&>(options) = given;
+  const auto limits = options::taken_from<Limits>(options);
+  base::Control control(limits);
+  report.status = base::guarded(control, [&]() -> Status {
+    control.enter(Phase::check);
+    plane::check_numbers(graph);
+    report.places = plane::defects_of(graph, control);
+    report.hints = plane::hints_of(report);
+    plane::Session session(options, control);
+    PlaneResult unused;
+    plane::Recorder recorder(session, unused);
+    const plane::InputGraph input = plane::check(graph, session, recorder);
+    report.warnings = input.warnings;
+    report.bbox_diagonal = input.diagonal;
+    report.area = plane::area_of(input, session.points);
+    return {};
+  });
+  return report;
+}
+
+GraphRepairResult repair_graph(const PlanarGraph& graph, double weld, const TimeLimit& given) {
+  GraphRepairResult result;
+  PlaneOptions options;
+  static_cast<TimeLimit&>(options) = given;
+  const auto limits = options::taken_from<Limits>(options);
+  base::Control control(limits);
+  result.status = base::guarded(control, [&]() -> Status {
+    control.enter(Phase::check);
+    plane::check_numbers(graph);
+    if (!(weld >= 0) || !std::isfinite(weld)) {
+      return {StatusCode::invalid_options, "weld must be at least 0, and finite"};
+    }
+    result.graph = plane::mended(graph, weld, result.done, control);
+    return {};
+  });
   return result;
 }
 

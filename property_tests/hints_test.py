@@ -73,6 +73,14 @@ def cases():
     yield "inner wall", "inner wall of 2 triangles", (wall[0], wall[1] + inner)
 
 
+def graphs():
+    """Name, the words of the hint, points and segments of a planar graph."""
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    yield "crossing", "makes a vertex of each crossing", square, ring + [(0, 2), (1, 3)]
+    yield "overlapping", "cuts overlaps", square + [(2, 0)], ring + [(0, 4)]
+
+
 def run(*command):
     return subprocess.run(command, capture_output=True, text=True)
 
@@ -107,6 +115,29 @@ class Hints(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, commands[0] + ": " + done.stderr + done.stdout)
                 self.assertEqual(run(DELMESHER, "check", mended).returncode, 0)
         self.assertEqual(seen, {("delmesher", "repair"), ("tetproof", "union")})
+
+    def test_planar_graphs(self):
+        for name, words, points, segments in graphs():
+            with self.subTest(name):
+                given, mended = path(name + ".poly"), path(name + ".mended.poly")
+                with open(given, "w") as file:
+                    file.write("%d 2 0 0\n" % len(points))
+                    file.writelines("%d %r %r\n" % (i, *p) for i, p in enumerate(points))
+                    file.write("%d 0\n" % len(segments))
+                    file.writelines("%d %d %d\n" % (i, *s) for i, s in enumerate(segments))
+                    file.write("0\n")
+                said = run(DELMESHER, "check", given, "--defects", path(name + ".vtu"))
+                self.assertEqual(said.returncode, 4, said.stderr)
+                self.assertIn("hint: `delmesher repair` ", said.stdout)
+                self.assertIn(words, said.stdout)
+                refused = run(DELMESHER, "plane", given, "-o", path(name + ".msh"))
+                self.assertEqual((refused.returncode, "`delmesher repair`" in refused.stderr), (4, True), refused.stderr)
+                self.assertEqual(run(DELMESHER, "repair", given, "-o", mended).returncode, 0)
+                self.assertEqual(run(DELMESHER, "check", mended).returncode, 0)
+                meshed = run(DELMESHER, "plane", mended, "-o", path(name + ".node"))
+                self.assertEqual(meshed.returncode, 0, meshed.stderr)
+                verified = run(TETPROOF, "verify", mended, path(name + ".node"), "--promised", "plane")
+                self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 #include <thread>
 
 #include "mesher/delmesher_plane.h"
@@ -376,6 +377,118 @@ TEST(Plane, RefusesAndSaysWhy) {
   graph.vertices[0] = {-5e-324, 0};
   graph.vertices[2] = {1e300, 1e300};
   EXPECT_NE(refusal(graph).find("orders of magnitude"), std::string::npos);
+}
+
+// Spokes from one place, as far from each other there as rounding moved them: none of the wedges
+// between them has a narrow part, but they are wedges over twelve orders of magnitude.
+PlanarGraph spokes_without_hub(int n, double step) {
+  PlanarGraph graph = shapes::polygon({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}});
+  for (int i = 0; i < n; ++i) {
+    const double angle = 0.1 + step * i;
+    const auto first = static_cast<std::uint32_t>(graph.vertices.size());
+    graph.vertices.push_back({-1e-12 * i * std::sin(0.1), 1e-12 * i * std::cos(0.1)});
+    graph.vertices.push_back({std::cos(angle), std::sin(angle)});
+    graph.segments.push_back({first, first + 1});
+  }
+  return graph;
+}
+
+TEST(Plane, WedgesWithoutACornerAreBounded) {
+  double predicted = 0;
+  PlaneOptions options = exact_options();
+  options.progress = [&](const Progress& progress) {
+    predicted = progress.predicted_tetrahedra;
+    return true;
+  };
+  const PlaneResult wide = expect_verified(spokes_without_hub(4, 3e-2), options);
+  const auto triangles = static_cast<double>(wide.mesh.triangles.size());
+  EXPECT_EQ(wide.statistics.dropped_segments, 0U);
+  EXPECT_GT(triangles, predicted / 1.5);
+  EXPECT_LT(triangles, predicted * 1.5);
+  // Twenty thousand triangles would go between the two.
+  const PlaneResult narrow = expect_verified(spokes_without_hub(2, 1e-3));
+  EXPECT_EQ(narrow.statistics.dropped_segments, 1U);
+  EXPECT_LT(narrow.mesh.triangles.size(), 200U);
+  ASSERT_EQ(narrow.warnings.size(), 1U);
+  EXPECT_NE(narrow.warnings[0].find("too narrow"), std::string::npos);
+}
+
+// --- what repair_graph() mends
+
+// Segments between points of a grid cross, overlap, repeat each other, and some have no length; a
+// third of the points are there twice.
+PlanarGraph tangle(std::uint32_t seed, Insideness insideness) {
+  std::mt19937 random(seed);
+  const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
+  PlanarGraph graph;
+  graph.insideness = insideness;
+  const std::uint32_t size = 4 + below(5), n = 6 + below(9);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    const double x = below(size), y = below(size);
+    graph.vertices.push_back({x / 3, y / 3});
+  }
+  for (std::uint32_t v = 0; v < n / 3; ++v) graph.vertices.push_back(graph.vertices[v]);
+  for (std::uint32_t s = 0; s < 2 * n; ++s) {
+    const auto m = static_cast<std::uint32_t>(graph.vertices.size());
+    graph.segments.push_back({below(m), below(m)});
+    graph.markers.push_back(static_cast<std::int32_t>(s));
+  }
+  // So that something is enclosed.
+  const auto first = static_cast<std::uint32_t>(graph.vertices.size());
+  graph.vertices.insert(graph.vertices.end(), {{-1, -1}, {5, -1}, {2, 7}});
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    graph.segments.push_back({first + k, first + (k + 1) % 3});
+    graph.markers.push_back(99);
+  }
+  return graph;
+}
+
+TEST(PlaneRepair, LeavesAGraphThatCanBeMeshed) {
+  int bad = 0;
+  for (int i = 0; i < iterations(40); ++i) {
+    const auto seed = static_cast<std::uint32_t>(i);
+    const PlanarGraph graph = tangle(seed, i % 2 == 0 ? Insideness::enclosed : Insideness::nested);
+    const GraphReport before = check_graph(graph);
+    EXPECT_EQ(before.status.ok(), triangulate_polygon(graph).status.ok()) << seed;
+    bad += before.status.ok() ? 0 : 1;
+    EXPECT_EQ(before.status.ok(), before.hints.empty()) << seed;
+    const GraphRepairResult mended = repair_graph(graph);
+    ASSERT_TRUE(mended.status.ok()) << seed << ": " << mended.status.message;
+    EXPECT_FALSE(mended.done.empty()) << seed;
+    const GraphReport after = check_graph(mended.graph);
+    EXPECT_TRUE(after.status.ok()) << seed << ": " << after.status.message;
+    expect_verified(mended.graph);
+    EXPECT_TRUE(repair_graph(mended.graph).done.empty()) << seed;
+    EXPECT_GE(std::ranges::count(mended.graph.markers, 99), 3) << seed;
+  }
+  EXPECT_GT(bad, 20);
+}
+
+TEST(PlaneRepair, MakesWhatTheDefectsSay) {
+  PlanarGraph graph = shapes::square();  // from (0, 0) to (1, 1)
+  const std::uint32_t n = 4;
+  graph.vertices.insert(graph.vertices.end(), {{1, 1}, {2, 0}, {1e-3, 0}});
+  graph.segments.insert(graph.segments.end(), {{0, 2}, {1, 3}, {2, n}, {0, n + 1}, {0, 1}});
+  const GraphReport report = check_graph(graph);
+  EXPECT_FALSE(report.status.ok());
+  const auto count = [&](GraphDefect kind) {
+    return report.places[static_cast<std::size_t>(kind)].size();
+  };
+  EXPECT_EQ(count(GraphDefect::equal_vertices), 1U);
+  EXPECT_EQ(count(GraphDefect::no_length), 1U);
+  EXPECT_EQ(count(GraphDefect::overlap), 2U);  // of (0, 0) to (2, 0) with both of (0, 0) to (1, 0)
+  EXPECT_EQ(count(GraphDefect::crossing), 1U);
+  const GraphRepairResult mended = repair_graph(graph);
+  // The middle, and the square's corners, (2, 0), (1e-3, 0).
+  EXPECT_EQ(mended.graph.vertices.size(), 7U);
+  EXPECT_EQ(mended.graph.vertices.back(), (std::array<double, 2>{0.5, 0.5}));
+  EXPECT_DOUBLE_EQ(check_graph(mended.graph).area, 1);
+  const GraphRepairResult welded = repair_graph(graph, 0.01);
+  EXPECT_EQ(welded.graph.vertices.size(), 6U);
+  EXPECT_EQ(repair_graph(graph, NAN).status.code, StatusCode::invalid_options);
+  graph.segments[0] = {0, 99};
+  EXPECT_EQ(repair_graph(graph).status.code, StatusCode::invalid_surface);
+  EXPECT_EQ(check_graph(graph).status.code, StatusCode::invalid_surface);
 }
 
 TEST(Plane, HugeCoordinates) {

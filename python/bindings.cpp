@@ -389,13 +389,19 @@ py::dict repair(const Array<double>& points, const Array<std::uint32_t>& triangl
   return d;
 }
 
-py::dict plane(const Array<double>& points, const Array<std::uint32_t>& segments,
-               const Labels& markers, const Array<double>& holes, const py::dict& given,
-               py::object progress) {
+PlanarGraph graph_of(const Array<double>& points, const Array<std::uint32_t>& segments,
+                     const Labels& markers) {
   PlanarGraph graph;
   graph.vertices = rows_of<double, 2>(points, "points");
   graph.segments = rows_of<std::uint32_t, 2>(segments, "segments");
   graph.markers = labels_of(markers, "markers", graph.segments.size(), "segments");
+  return graph;
+}
+
+py::dict plane(const Array<double>& points, const Array<std::uint32_t>& segments,
+               const Labels& markers, const Array<double>& holes, const py::dict& given,
+               py::object progress) {
+  PlanarGraph graph = graph_of(points, segments, markers);
   graph.holes = rows_of<double, 2>(holes, "holes");
   auto options = options_of<PlaneOptions>(given);
   Watch watch(options, std::move(progress));
@@ -416,6 +422,40 @@ py::dict plane(const Array<double>& points, const Array<std::uint32_t>& segments
   d["edges"] = taken(std::move(result.mesh.edges));
   d["markers"] = taken(std::move(result.mesh.edge_markers));
   d["segments"] = taken(std::move(result.mesh.edge_segments));
+  return d;
+}
+
+py::dict check_plane(const Array<double>& points, const Array<std::uint32_t>& segments) {
+  const PlanarGraph graph = graph_of(points, segments, std::nullopt);
+  GraphReport report = [&] {
+    const py::gil_scoped_release free;
+    return check_graph(graph);
+  }();
+  py::dict d, places;
+  put_status(d, report.status, report.warnings);
+  for (std::size_t kind = 0; kind < kGraphDefects; ++kind) {
+    if (report.places[kind].empty()) continue;
+    places[defect_name(static_cast<GraphDefect>(kind))] = taken(std::move(report.places[kind]));
+  }
+  d["places"] = places;
+  d["hints"] = report.hints;
+  d["area"] = report.area;
+  return d;
+}
+
+py::dict repair_plane(const Array<double>& points, const Array<std::uint32_t>& segments,
+                      const Labels& markers, double weld) {
+  const PlanarGraph graph = graph_of(points, segments, markers);
+  GraphRepairResult mended = [&] {
+    const py::gil_scoped_release free;
+    return repair_graph(graph, weld);
+  }();
+  py::dict d;
+  put_status(d, mended.status, {});
+  d["points"] = taken(std::move(mended.graph.vertices));
+  d["segments"] = taken(std::move(mended.graph.segments));
+  d["markers"] = taken(std::move(mended.graph.markers));
+  d["done"] = mended.done;
   return d;
 }
 
@@ -485,6 +525,8 @@ PYBIND11_MODULE(_core, module) {
   module.def("labelled_faces", &faces);
   module.def("repair", &repair);
   module.def("plane", &plane);
+  module.def("check_plane", &check_plane);
+  module.def("repair_plane", &repair_plane);
   module.def("read_surface", &read_surface_file);
   module.def("read_mesh", &read_mesh_file);
   module.def("write_mesh", &write_mesh_file);

@@ -32,6 +32,9 @@ constexpr auto kRepeatable = CLI::MultiOptionPolicy::TakeAll;
 
 constexpr const char* kSurfaces =
     "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input";
+constexpr const char* kSurfacesAndGraphs =
+    "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input; or planar graph: "
+    ".poly or rings of x y lines";
 void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
   app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
   add_number(app, given.options, "jobs", "inputs at a time, 0: one per core (1)", {.high = 1024},
@@ -141,7 +144,7 @@ void add_improve(CLI::App& app, Command& command, Given& given) {
 }
 
 void add_check(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command, given);
+  add_common(app, command, given, kSurfacesAndGraphs);
   app.add_flag("--json", command.json, "report as JSON");
   add_file(app, command, "--defects", &Command::defects_file,
            "write the surface with its defects: .ply with coloured triangles, or .vtu with "
@@ -151,8 +154,10 @@ void add_check(CLI::App& app, Command& command, Given& given) {
 }
 
 void add_repair(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command, given);
-  add_outputs(app, command, "surface to write: " + io::boundary_extensions());
+  add_common(app, command, given, kSurfacesAndGraphs);
+  add_outputs(app, command,
+              "surface to write: " + io::boundary_extensions() + "; of a planar graph " +
+                  io::kGraphExtensions);
   add_names(app, command);
   add_options_of<RepairOptions>(app, given);
 }
@@ -227,6 +232,11 @@ std::string idle_option(const Command& command, const Given& given) {
   return {};
 }
 
+// Of a surface, or of a planar graph.
+std::vector<std::string> mended_files_of(const std::string& output) {
+  return io::is_graph_file(output) ? std::vector{output} : io::boundary_files_of(output);
+}
+
 // Files that would overwrite each other or the input; unknown formats. `seen`: the files of other
 // runs.
 std::string output_error(const Command& command, bool several,
@@ -238,7 +248,7 @@ std::string output_error(const Command& command, bool several,
   for (const std::string& output : command.outputs) {
     const bool surface = command.job() == Job::repair;
     const std::vector<std::string> made = plane     ? io::plane_files_of(output)
-                                          : surface ? io::boundary_files_of(output)
+                                          : surface ? mended_files_of(output)
                                                     : io::mesh_files_of(output);
     if (made.empty() && output == "-") {
       return "-: standard output needs a format: -.EXT, as in " + std::string(surface ? "-.stl"
@@ -248,7 +258,7 @@ std::string output_error(const Command& command, bool several,
     if (made.empty()) {
       return output + ": unknown " + (surface ? "surface" : "mesh") + " format (" +
              (plane     ? io::plane_extensions()
-              : surface ? io::boundary_extensions()
+              : surface ? io::boundary_extensions() + "; of a planar graph " + io::kGraphExtensions
                         : io::mesh_extensions()) +
              ")";
     }

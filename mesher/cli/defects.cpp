@@ -200,6 +200,41 @@ std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
   return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
+std::string graph_defects_vtu(const PlanarGraph& graph, const GraphReport& report) {
+  const std::size_t n = graph.segments.size();
+  std::vector<int> kinds(n, 0);
+  for (std::size_t kind = 0; kind < kGraphDefects; ++kind) {
+    for (const auto& place : report.places[kind]) {
+      if (static_cast<GraphDefect>(kind) == GraphDefect::equal_vertices) continue;
+      for (const std::uint32_t s : place) kinds[s] = static_cast<int>(kind) + 1;
+    }
+  }
+  std::string out = "<?xml version=\"1.0\"?>\n<!-- delmesher, defect: 0 none";
+  for (std::size_t kind = 0; kind < kGraphDefects; ++kind) {
+    out += ", " + std::to_string(kind + 1) + " " + defect_name(static_cast<GraphDefect>(kind));
+  }
+  out +=
+      " -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+      std::to_string(graph.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(n) +
+      "\">\n<Points>\n";
+  vtu_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", graph.vertices.size(),
+            [&](std::size_t i) {
+              return coordinates({graph.vertices[i][0], graph.vertices[i][1], 0});
+            });
+  out += "</Points>\n<Cells>\n";
+  vtu_array(out, "type=\"Int64\" Name=\"connectivity\"", n,
+            [&](std::size_t i) { return numbers(graph.segments[i]); });
+  vtu_array(out, "type=\"Int64\" Name=\"offsets\"", n,
+            [](std::size_t i) { return std::to_string(2 * (i + 1)); });
+  vtu_array(out, "type=\"UInt8\" Name=\"types\"", n,
+            [](std::size_t) { return std::string("3"); });  // VTK_LINE
+  out += "</Cells>\n<CellData Scalars=\"defect\">\n";
+  vtu_array(out, "type=\"UInt8\" Name=\"defect\"", n,
+            [&](std::size_t i) { return std::to_string(kinds[i]); });
+  return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
 DefectsFormat defects_format(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   return io::equal_ignoring_case(extension, ".ply")   ? DefectsFormat::ply

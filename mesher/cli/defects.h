@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 
 namespace delmesher::cli {
 
@@ -17,6 +17,8 @@ std::string coloured_ply(const Surface& surface, const SurfaceReport& report);
 // the labels of the surface. Then lines: open edges, those that are not manifold, and those where
 // orientations disagree.
 std::string defects_vtu(const Surface& surface, const SurfaceReport& report);
+// The segments of a graph as .vtu, with a number for the kind of defect, 0 where there is none.
+std::string graph_defects_vtu(const PlanarGraph& graph, const GraphReport& report);
 // By the extension of a path.
 enum class DefectsFormat : std::uint8_t { none, ply, vtu };
 DefectsFormat defects_format(const std::string& path);

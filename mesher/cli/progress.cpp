@@ -43,7 +43,7 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-std::string progress_text(const Progress& progress, double seconds) {
+std::string progress_text(const Progress& progress, double seconds, const char* cells) {
   std::string text = phase_name(progress.phase);
   const Share share = share_of(progress);
   if (share.done >= 0) {
@@ -57,7 +57,7 @@ std::string progress_text(const Progress& progress, double seconds) {
   }
   if (progress.vertices > 0) text += "  " + std::to_string(progress.vertices) + " vertices";
   if (progress.predicted_tetrahedra > 0) {
-    text += "  (about " + two_digits(progress.predicted_tetrahedra) + " tetrahedra predicted)";
+    text += "  (about " + two_digits(progress.predicted_tetrahedra) + " " + cells + " predicted)";
   }
   return text;
 }
@@ -83,7 +83,7 @@ void ProgressLine::show(const Progress& progress) {
   last_ = now;
   if (progress.phase != phase_ || width_ == 0) phase_began_ = now;
   phase_ = progress.phase;
-  write(progress_text(progress, std::chrono::duration<double>(now - phase_began_).count()));
+  write(progress_text(progress, std::chrono::duration<double>(now - phase_began_).count(), cells_));
 }
 
 void ProgressLine::clear() {

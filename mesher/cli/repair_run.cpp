@@ -4,6 +4,7 @@
 
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/write_mesh.h"
+#include "mesher/io/write_plane.h"
 #include "mesher/surface/hints.h"
 #include "mesher/surface/repair.h"
 
@@ -72,6 +73,11 @@ int RepairRunner::conclude_with(const SurfaceReport& report) {
 }
 
 int RepairRunner::run() {
+  for (const std::string& output : command_.outputs) {
+    if (io::is_graph_file(output)) {
+      return fail(kUsage, output + ": of planar graphs only (" + io::boundary_extensions() + ")");
+    }
+  }
   int code = check_outputs(io::boundary_files_of);
   if (code == kDone) code = read();
   if (code != kDone) return code;

@@ -304,7 +304,7 @@ std::string planar_text(const std::string& file, const Statistics& s, bool as_gi
   }
   return facets + std::to_string(s.facets) + within + "; vertices are up to " +
          number_short(s.planar_deviation / diagonal) +
-         " from their planes (--planar 0 keeps all facets)";
+         " of it from their planes (--planar 0 keeps all facets)";
 }
 
 std::vector<std::string> limits_texts(const Statistics& s) {
@@ -439,6 +439,79 @@ std::string check_json(const std::string& file, const Surface& surface, const io
   json["defect_counts"] = counts;
   json["defects"] = defects;
   json["hints"] = report.status.ok() ? std::vector<std::string>() : surface_hints(surface, report);
+  return dump(json);
+}
+
+namespace {
+
+// "segments 3 and 7, at (1, 2)", counted from 0.
+std::string graph_defect(const PlanarGraph& graph, GraphDefect kind,
+                         const std::array<std::uint32_t, 2>& place) {
+  const bool vertices = kind == GraphDefect::equal_vertices;
+  const std::uint32_t v = vertices ? place[0] : graph.segments[place[0]][0];
+  const std::string items =
+      place[0] == place[1] ? " " + std::to_string(place[0])
+                           : "s " + std::to_string(place[0]) + " and " + std::to_string(place[1]);
+  const std::string name = !vertices              ? "segment" + items
+                           : place[0] == place[1] ? "vertex" + items
+                                                  : "vertice" + items;
+  return name + ", from (" + number(graph.vertices[v][0]) + ", " + number(graph.vertices[v][1]) +
+         ")";
+}
+
+}  // namespace
+
+std::string graph_text(const std::string& file, const PlanarGraph& graph,
+                       const GraphReport& report) {
+  std::string out = file + (report.status.ok() ? ": a valid planar graph\n"
+                                               : ": not a planar graph that can be meshed\n");
+  const auto line = [&](const std::string& name, const std::string& value) {
+    out += "  " + name + std::string(31 - name.size(), ' ') + value + "\n";
+  };
+  line("vertices", std::to_string(graph.vertices.size()));
+  line("segments", std::to_string(graph.segments.size()));
+  if (report.status.ok()) {
+    line("bounding-box diagonal", number(report.bbox_diagonal));
+    line("area inside", number(report.area));
+  }
+  for (const std::string& warning : report.warnings) out += "  warning: " + warning + "\n";
+  for (std::size_t kind = 0; kind < kGraphDefects; ++kind) {
+    const auto& places = report.places[kind];
+    if (places.empty()) continue;
+    const auto defect = static_cast<GraphDefect>(kind);
+    out += std::string("  ") + defect_name(defect) + ": " + std::to_string(places.size()) + "\n";
+    for (std::size_t i = 0; i < std::min<std::size_t>(places.size(), 10); ++i) {
+      out += "    " + graph_defect(graph, defect, places[i]) + "\n";
+    }
+    if (places.size() > 10) out += "    and " + std::to_string(places.size() - 10) + " more\n";
+  }
+  for (const std::string& hint : report.hints) out += "  hint: " + hint + "\n";
+  return out;
+}
+
+std::string graph_json(const std::string& file, const PlanarGraph& graph,
+                       const GraphReport& report) {
+  Json counts = Json::object(), places = Json::object();
+  for (std::size_t kind = 0; kind < kGraphDefects; ++kind) {
+    if (report.places[kind].empty()) continue;
+    const char* name = defect_name(static_cast<GraphDefect>(kind));
+    counts[name] = report.places[kind].size();
+    places[name] = report.places[kind];
+  }
+  Json json = {{"file", file},
+               {"valid", report.status.ok()},
+               {"status", status_name(report.status.code)},
+               {"message", report.status.message},
+               {"vertices", graph.vertices.size()},
+               {"segments", graph.segments.size()},
+               {"warnings", report.warnings},
+               {"defect_counts", counts},
+               {"places", places},
+               {"hints", report.hints}};
+  if (report.status.ok()) {
+    json["bbox_diagonal"] = report.bbox_diagonal;
+    json["area"] = report.area;
+  }
   return dump(json);
 }
 

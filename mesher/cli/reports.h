@@ -43,6 +43,12 @@ std::string check_text(const std::string& file, const Surface& surface, const io
 std::string check_json(const std::string& file, const Surface& surface, const io::LabelNames& names,
                        const SurfaceReport& report);
 
+// The same of a planar graph.
+std::string graph_text(const std::string& file, const PlanarGraph& graph,
+                       const GraphReport& report);
+std::string graph_json(const std::string& file, const PlanarGraph& graph,
+                       const GraphReport& report);
+
 // CPU seconds and peak memory of this process so far.
 void measure_process(RunFacts& facts);
 

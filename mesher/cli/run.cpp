@@ -10,6 +10,7 @@
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/exact_file.h"
 #include "mesher/io/parse_surface.h"
+#include "mesher/io/read_plane.h"
 #include "mesher/io/write_mesh.h"
 #include "mesher/surface/hints.h"
 
@@ -137,7 +138,12 @@ int Runner::mesh() {
   count_defects(result.status);
   const Statistics& s = result.statistics;
   if (options != nullptr && s.planar_groups > 0) {
-    remark(planar_text(command_.input, s, options->planar == 0 || s.diagonals > 0));
+    const bool as_given = options->planar == 0 || s.diagonals > 0;
+    // More than any surface may be off: coordinates are rounded coarsely, or noisy.
+    const bool far = options->planar == kPlanarAuto && !as_given &&
+                     s.planar_deviation > 0x1p-19 * s.bbox_diagonal;
+    const std::string text = planar_text(command_.input, s, as_given);
+    far ? say(text) : remark(text);
   }
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
@@ -165,6 +171,10 @@ int Runner::run() {
   note_files_in_place(false);
   try {
     if (command_.job() == Job::plane) return run_plane(command_, library_, streams_);
+    const bool takes_graphs = command_.job() == Job::check || command_.job() == Job::repair;
+    if (takes_graphs && io::is_plane_file(command_.input)) {
+      return run_graph(command_, library_, streams_);
+    }
     if (command_.job() == Job::repair) return run_repair(command_, library_, streams_);
     if (command_.job() == Job::improve) return run_improve(command_, library_, streams_);
     int code = check_outputs(io::mesh_files_of);

@@ -50,7 +50,8 @@ class RunSteps {
   // left, progress on a terminal, and signals that ask it to stop.
   template <class AnyOptions, class Call>
   auto call(AnyOptions options, Call&& library_call) const {
-    ProgressLine line(stderr, streams_.terminal && !command_.quiet, streams_.escapes);
+    const char* cells = command_.job() == Job::plane ? "triangles" : "tetrahedra";
+    ProgressLine line(stderr, streams_.terminal && !command_.quiet, streams_.escapes, cells);
     if constexpr (requires { options.size_field; }) options.size_field = sizes_;
     watch(options, line);
     const Deferring deferring;

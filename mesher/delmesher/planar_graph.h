@@ -34,6 +34,30 @@ struct PlanarGraph {
   Insideness insideness = Insideness::enclosed;
 };
 
+// Why a graph cannot be meshed as it is.
+enum class GraphDefect : std::uint8_t {
+  equal_vertices,  // two vertices at the same place
+  no_length,       // a segment
+  overlap,         // two segments that have a part in common, and are not equal
+  crossing         // two segments
+};
+inline constexpr std::size_t kGraphDefects = 4;
+
+struct GraphReport {
+  Status status;                      // ok, invalid_surface, interrupted ...
+  std::vector<std::string> warnings;  // of what is mended or left out when it is meshed
+  std::vector<std::string> hints;     // what to do; commands are in backticks
+  // By GraphDefect: two vertices, or two segments; a single one stands twice. At most a million.
+  std::array<std::vector<std::array<std::uint32_t, 2>>, kGraphDefects> places;
+  double bbox_diagonal = 0, area = 0;  // of the inside, rounded
+};
+
+struct GraphRepairResult {
+  Status status;
+  PlanarGraph graph;
+  std::vector<std::string> done;  // the changes, a line each: "12 vertices merged ..."
+};
+
 // A triangulation; every triangle is counter-clockwise unless PlaneStatistics::rounding_* say
 // otherwise.
 struct PlaneMesh {

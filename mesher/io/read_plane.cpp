@@ -148,6 +148,31 @@ std::vector<std::uint32_t> weld(const std::vector<Point2>& points, std::vector<P
   return number;
 }
 
+// As rings are: equal points are one vertex, and no segment has its ends in one.
+void weld_graph(PlaneReadResult& result) {
+  PlanarGraph& graph = result.graph;
+  std::vector<Point2> vertices;
+  const std::vector<std::uint32_t> number = weld(graph.vertices, vertices);
+  const std::size_t equal = graph.vertices.size() - vertices.size();
+  graph.vertices = std::move(vertices);
+  std::size_t kept = 0;
+  for (std::size_t s = 0; s < graph.segments.size(); ++s) {
+    const auto [a, b] = graph.segments[s];
+    if (number[a] == number[b]) continue;
+    if (!graph.markers.empty()) graph.markers[kept] = graph.markers[s];
+    graph.segments[kept++] = {number[a], number[b]};
+  }
+  const std::size_t dropped = graph.segments.size() - kept;
+  graph.segments.resize(kept);
+  if (!graph.markers.empty()) graph.markers.resize(kept);
+  if (equal > 0) {
+    result.warnings.push_back("vertices that repeat others merged: " + std::to_string(equal));
+  }
+  if (dropped > 0) {
+    result.warnings.push_back("segments without length left out: " + std::to_string(dropped));
+  }
+}
+
 struct CountedEdge {
   std::array<std::uint32_t, 2> ends;  // the smaller index first
   std::uint32_t position;             // of its first appearance
@@ -241,6 +266,7 @@ void read_triangle_poly(std::string_view text, const NodeFile& node_file, Pollin
   }
   reader.read_segments();
   reader.read_holes_and_regions(result.warnings);
+  weld_graph(result);
 }
 
 void read_polygons(std::string_view text, Polling& polling, PlaneReadResult& result) {
@@ -335,6 +361,36 @@ PlanarGraph outline(const Surface& surface,
   }
   add_lines(lines, surface.triangles.empty(), graph);
   return graph;
+}
+
+bool is_plane(std::string_view bytes, const std::string& path) {
+  TextLines in(bytes, Comments::anywhere, ',');
+  std::string_view token;
+  double number = 0;
+  if (has_extension(path, ".poly")) {
+    return in.next_line() && in.next_token(token) && in.next_token(token) && token == "2";
+  }
+  for (const char* extension : {".off", ".obj", ".stl", ".ply", ".3mf", ".smesh"}) {
+    if (has_extension(path, extension)) return false;
+  }
+  // Rings: lines of two numbers, after lines that begin with '>'.
+  while (in.next_line()) {
+    if (in.rest_of_line()[0] == '>') continue;
+    for (int i = 0; i < 2; ++i) {
+      if (!in.next_token(token) || parse_double(token, number) != NumberStatus::ok) return false;
+    }
+    return true;
+  }
+  return false;
+}
+
+bool is_plane_file(const std::string& path) {
+  if (path == "-") return false;
+  try {
+    return is_plane(read_file(path), without_gz(path));
+  } catch (const FileError&) {
+    return false;  // for others to say
+  }
 }
 
 PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,

@@ -17,9 +17,14 @@ PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
                             const NodeFile& node_file = nullptr,
                             const std::function<bool()>& go_on = {});
 
+// Is it a graph of the plane, not a surface: a .poly of dimension 2, or rings?
+bool is_plane(std::string_view bytes, const std::string& path);
+// Of a file; false if it cannot be read, and of standard input.
+bool is_plane_file(const std::string& path);
+
 // --- the single formats; they throw ParseError and ReadingStopped
 
-// Shewchuk's Triangle: vertices, segments, holes, regions.
+// Shewchuk's Triangle: vertices, segments, holes, regions. Equal points are one vertex, too.
 void read_triangle_poly(std::string_view text, const NodeFile& node_file, Polling& polling,
                         PlaneReadResult& result);
 // Rings of "x y" lines, separated by blank lines or lines that begin with '>' (GMT). Equal points

@@ -1,6 +1,7 @@
 #include "mesher/io/write_plane.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "mesher/io/file_formats.h"
 #include "mesher/io/write_plane_formats.h"
@@ -158,6 +159,35 @@ WriteStatus write_poly(OutputSet& outputs, const std::string& path, const Planar
     line(*out);
   }
   write_holes_and_regions(*out, graph);
+  return status;
+}
+
+bool is_graph_file(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return equal_ignoring_case(extension, ".poly") || equal_ignoring_case(extension, ".txt");
+}
+
+WriteStatus write_graph(OutputSet& outputs, const std::string& path, const PlanarGraph& graph) {
+  const bool rings = graph.insideness == Insideness::nested;
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (equal_ignoring_case(extension, ".poly") == rings) {
+    return {path + (rings ? ": a .poly has no nested rings; write .txt"
+                          : ": rings have no holes, regions and markers; write .poly")};
+  }
+  if (!rings) return write_poly(outputs, path, graph);
+  WriteStatus status;
+  TextSink* out = outputs.open(path, status);
+  if (out == nullptr) return status;
+  for (std::size_t i = 0; i < graph.segments.size(); ++i) {
+    const bool divides = !graph.partitions.empty() && graph.partitions[i] != 0;
+    for (int times = divides ? 2 : 1; times > 0; --times) {
+      for (const std::uint32_t v : graph.segments[i]) {
+        point(*out, graph.vertices[v]);
+        line(*out);
+      }
+      line(*out);
+    }
+  }
   return status;
 }
 

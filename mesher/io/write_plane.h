@@ -24,6 +24,13 @@ WriteStatus write_plane(OutputSet& outputs, const std::string& path, const Plane
 // A .poly file (Shewchuk's Triangle).
 WriteStatus write_poly(OutputSet& outputs, const std::string& path, const PlanarGraph& graph);
 
+// The extensions that write_graph() knows.
+inline constexpr const char* kGraphExtensions = ".poly or .txt";
+bool is_graph_file(const std::string& path);
+// A graph as it was read: .poly, or of rings .txt, where each segment is a ring of two points, and
+// one that only divides is there twice.
+WriteStatus write_graph(OutputSet& outputs, const std::string& path, const PlanarGraph& graph);
+
 // The sidecar of --exact in the plane; exact_format.md has the grammar.
 WriteStatus write_plane_exact(OutputSet& outputs, const std::string& path,
                               const PlaneRecord& record);

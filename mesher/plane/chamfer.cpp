@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "mesher/base/check.h"
 #include "mesher/base/epoch.h"
@@ -181,8 +182,34 @@ class Chamferer {
     return false;
   }
 
-  // Length of the narrow part of the channel between two pieces over its width, the narrow part
-  // being where it is at most four times as wide as at its narrowest.
+  // The squares that fit into the part of a channel along s on one side of where it is narrowest.
+  // Its width is convex along s, so between two widths there are at least as many as beside a
+  // straight line.
+  static double squares(const Line& s, const Line& t, double narrowest, double end, double width) {
+    const double length = s.length();
+    double sum = 0, from = narrowest, w = width;
+    while (from != end) {
+      double to = end;
+      if (t.distance_to(s.at(end)) > 2 * w) {
+        double near = from, away = end;
+        for (int k = 0; k < 60; ++k) {
+          const double half = (near + away) / 2;
+          (t.distance_to(s.at(half)) <= 2 * w ? near : away) = half;
+        }
+        if (near == from) break;  // as wide as long
+        to = near;
+      }
+      const double wider = std::max(t.distance_to(s.at(to)), w);
+      sum += std::fabs(to - from) * length / ((w + wider) / 2);
+      from = to;
+      w = wider;
+    }
+    return sum;
+  }
+
+  // How narrow the channel between two pieces is: length over width of the narrow part, where it is
+  // at most four times as wide as at its narrowest, or of all squares that fit into it. A wedge
+  // whose point was rounded away is long at every width.
   double narrowness(PieceId p, PieceId q) const {
     Line s = middle(p), t = middle(q);
     if (s.length() > t.length()) std::swap(s, t);
@@ -216,7 +243,8 @@ class Chamferer {
       }
       return near;
     };
-    return (end(1) - end(0)) * length / width;
+    return std::max((end(1) - end(0)) * length / width,
+                    squares(s, t, best, 0, width) + squares(s, t, best, 1, width));
   }
 
   // Calls meet(piece) for the kept pieces that lie close beside the piece of an edge, on the side
@@ -266,11 +294,17 @@ class Chamferer {
       PieceId p, q;
     };
     std::vector<Pair> pairs;
+    std::vector<std::pair<std::array<PieceId, 2>, double>> channels;  // seen from both sides
     const auto consider = [&](PieceId p, PieceId q) {
       if (p < kBoxPieces || q < kBoxPieces || p == q || !kept(p) || !kept(q)) return;
       if (share_vertex(graph_.pieces[p], graph_.pieces[q])) return;
       const double n = narrowness(p, q);
-      if (n * options_.tau > 1) pairs.push_back({n, std::min(p, q), std::max(p, q)});
+      const std::array<PieceId, 2> pair = {std::min(p, q), std::max(p, q)};
+      if (n * options_.tau > 1) {
+        pairs.push_back({n, pair[0], pair[1]});
+      } else {
+        channels.push_back({pair, n});
+      }
     };
     for (TriangleId t = 0; t < base_.size(); ++t) {
       control_.poll(points_.size());
@@ -292,6 +326,12 @@ class Chamferer {
         return distance(point(graph_.pieces[p].a), point(graph_.pieces[p].b));
       };
       drop(length(pair.p) > length(pair.q) ? pair.p : pair.q);
+    }
+    std::sort(channels.begin(), channels.end());
+    channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+    result_.channel_squares = 0;
+    for (const auto& [pair, n] : channels) {
+      if (kept(pair[0]) && kept(pair[1])) result_.channel_squares += n;
     }
     return !pairs.empty();
   }

@@ -37,6 +37,7 @@ struct Chamfered {
   std::vector<PlaneRecord::Corner> corners;   // distances in the units of the store
   std::vector<Gap> gaps;
   std::uint64_t cut_pieces = 0, rounds = 0;
+  double channel_squares = 0;  // that fit into the narrow channels that are left; 0 if tau is
 };
 
 // Pieces that the filter drops are added to `spared`. Adds the cut points to the store.

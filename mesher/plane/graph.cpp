@@ -34,7 +34,9 @@ std::string at(const std::array<double, 2>& p) {
   return text;
 }
 
-void check_sizes(const PlanarGraph& g) {
+}  // namespace
+
+void check_numbers(const PlanarGraph& g) {
   const auto n = g.vertices.size();
   if (n >= 0xfffffff0U || g.segments.size() >= 0xfffffff0U) refuse("too many vertices or segments");
   if (!g.markers.empty() && g.markers.size() != g.segments.size()) {
@@ -56,9 +58,21 @@ void check_sizes(const PlanarGraph& g) {
       refuse(name + " has the vertex " + std::to_string(std::max(a, b)) + " of " +
              std::to_string(n) + kCounting);
     }
-    if (a == b) refuse(name + " begins and ends at vertex " + std::to_string(a) + kCounting);
   }
   if (g.segments.empty()) refuse("no segments");
+}
+
+namespace {
+
+constexpr const char* kMerges = "; `delmesher repair` merges and drops such";
+
+void check_lengths(const PlanarGraph& g) {
+  for (std::size_t i = 0; i < g.segments.size(); ++i) {
+    const auto [a, b] = g.segments[i];
+    if (a != b) continue;
+    refuse("segment " + std::to_string(i) + " begins and ends at vertex " + std::to_string(a) +
+           kCounting + kMerges);
+  }
 }
 
 // The power of two that brings the largest coordinate to around 1, if that is exact for all.
@@ -95,7 +109,8 @@ class Builder {
                .warnings = {}} {}
 
   InputGraph run() {
-    check_sizes(input());
+    check_numbers(input());
+    check_lengths(input());
     add_points();
     insert_vertices();
     for (const std::uint32_t i : order_of_segments()) {
@@ -171,7 +186,8 @@ class Builder {
       const VertexId there = graph_.base.insert(v, hint);
       if (there != v) {
         const VertexId i = graph_.number[v], j = graph_.number[there];
-        refuse(both("vertices", i, j) + " coincide at " + at(input().vertices[i]) + kCounting);
+        refuse(both("vertices", i, j) + " coincide at " + at(input().vertices[i]) + kCounting +
+               kMerges);
       }
       hint = graph_.base.around(v);
     }
@@ -201,11 +217,13 @@ class Builder {
       const std::uint32_t other = graph_.pieces[obstacle.piece].segment;
       DELMESHER_CHECK(other != kNone, "a segment meets the outer box, which contains the graph");
       if (obstacle.kind == Triangulation::Obstacle::Kind::crossing) {
-        refuse(both("segments", i, other) + " cross: " + where(i, other) + kCounting);
+        refuse(both("segments", i, other) + " cross: " + where(i, other) + kCounting +
+               "; `delmesher repair` makes a vertex there");
       }
       const auto [c, d] = input().segments[other];
       if (std::minmax(first, last) != std::minmax(c, d)) {
-        refuse(both("segments", i, other) + " overlap: " + where(i, other) + kCounting);
+        refuse(both("segments", i, other) + " overlap: " + where(i, other) + kCounting +
+               "; `delmesher repair` makes one of them");
       }
       ++duplicates_;
       return;

@@ -43,6 +43,9 @@ struct InputGraph {
   bool is_box_corner(VertexId v) const { return v >= vertices && v < vertices + 4; }
 };
 
+// Throws Stopped if numbers are out of range or not finite.
+void check_numbers(const PlanarGraph& graph);
+
 // Fills the store, which must be empty. Throws Stopped with StatusCode::invalid_surface if the
 // graph is not one: the message names the offending vertices or segments.
 InputGraph build_graph(const PlanarGraph& input, PointStore& points, PlanePredicates& predicates,

@@ -95,6 +95,11 @@ void Recorder::finish() {
         "the angle bound asked for was not reached within the limit of points; 20.7 degrees are "
         "kept");
   }
+  if (result_.status.ok() && s.dropped_segments > 0) {
+    result_.warnings.push_back("segments left to the last step, without a bound on angles: " +
+                               std::to_string(s.dropped_segments) +
+                               "; channels beside them are too narrow, see --tau");
+  }
   s.phase_seconds = session_.control.phase_seconds();
   s.predicate_filter = session_.predicates.counters.filter;
   s.predicate_exact = session_.predicates.counters.exact;

@@ -36,6 +36,7 @@ struct Stretch {
 // The distance of two stretches, and the length of the shorter one that is within four times that.
 struct Channel {
   double width = HUGE_VAL, length = 0;
+  double squares = 0;  // that fit into it, rounded up
 };
 
 Channel channel(Stretch s, Stretch t) {
@@ -63,6 +64,22 @@ Channel channel(Stretch s, Stretch t) {
     return away;
   };
   result.length = (end(1) - end(0)) * s.length();
+  // In steps in which the width grows by an eighth; from the narrower end of each.
+  for (const double out : {0.0, 1.0}) {
+    double from = best, width = result.width;
+    for (int step = 0; step < 2000 && from != out && width > 0; ++step) {
+      double near = from, away = out;
+      if (distance(out) <= 1.125 * width) near = out;
+      for (int k = 0; k < 60 && near != out; ++k) {
+        const double half = (near + away) / 2;
+        (distance(half) <= 1.125 * width ? near : away) = half;
+      }
+      const double to = near == out ? out : away;
+      result.squares += std::fabs(to - from) * s.length() / width;
+      from = to;
+      width = std::max(width, distance(to));
+    }
+  }
   return result;
 }
 
@@ -370,6 +387,7 @@ class ChamferChecker {
       const Channel between = channel(rest(a, b, r[0], r[1]), rest(c, d, r[2], r[3]));
       if (no_room(std::ldexp(between.width, exponent), size)) return Reason::crowded;
       if (between.length * promise_.tau > between.width * (1 - 1e-6)) return Reason::narrow;
+      if (between.squares * promise_.tau > 1) return Reason::narrow;
     }
     return Reason::none;
   }

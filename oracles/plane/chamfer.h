@@ -30,7 +30,8 @@ using WedgeSide = std::function<bool(std::uint32_t v, std::uint32_t from, std::u
 // - refined-chamfer-cuts: kept pieces are cut at the distance of their chamfered ends, and nowhere
 //   else;
 // - refined-drops: a piece is missing exactly if its segment is called dropped, and has a reason to
-//   be: a channel narrower than tau beside it, or features closer to each other than doubles leave
+//   be: a channel narrower than tau beside it (its narrow part, or the squares that fit into all of
+//   it), or features closer to each other than doubles leave
 //   room for. Pieces without a reason of their own are counted, not failed, if they meet a piece
 //   that has one, or if there is no room somewhere else: trouble spreads in the refinement.
 void check_plane_chamfers(PlaneGraph& graph, const delmesher::PlaneRecord& record,

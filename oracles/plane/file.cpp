@@ -92,7 +92,30 @@ std::string without_commas(std::string text) {
   return text;
 }
 
-PlanarGraph read_poly(const std::string& path, std::string_view text) {
+// Points of a .poly that are equal are one vertex, and segments between them none.
+void merge_equal(PlanarGraph& graph) {
+  std::map<Point, std::uint32_t> place;
+  std::vector<Point> distinct;
+  std::vector<std::uint32_t> becomes;
+  for (const Point& p : graph.vertices) {
+    const auto found = place.emplace(p, static_cast<std::uint32_t>(distinct.size()));
+    if (found.second) distinct.push_back(p);
+    becomes.push_back(found.first->second);
+  }
+  std::vector<Edge> segments;
+  std::vector<std::int32_t> markers;
+  for (std::size_t i = 0; i < graph.segments.size(); ++i) {
+    const Edge ends = {becomes[graph.segments[i][0]], becomes[graph.segments[i][1]]};
+    if (ends[0] == ends[1]) continue;
+    segments.push_back(ends);
+    if (!graph.markers.empty()) markers.push_back(graph.markers[i]);
+  }
+  graph.vertices = distinct;
+  graph.segments = segments;
+  graph.markers = markers;
+}
+
+PlanarGraph read_whole_poly(const std::string& path, std::string_view text) {
   PlanarGraph graph;
   graph.insideness = Insideness::enclosed;
   TextReader reader(path, text);
@@ -124,6 +147,12 @@ PlanarGraph read_poly(const std::string& path, std::string_view text) {
     graph.regions.push_back({at, reader.number()});
     reader.skip_line();
   }
+  return graph;
+}
+
+PlanarGraph read_poly(const std::string& path, std::string_view text) {
+  PlanarGraph graph = read_whole_poly(path, text);
+  merge_equal(graph);
   return graph;
 }
 

@@ -329,6 +329,22 @@ def test_cdt_and_improve():
         tetproof.improve(doubled)
 
 
+def test_a_dirty_plane_is_mended():
+    points, segments = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]]
+    with pytest.raises(tetproof.InvalidSurface, match=r"segments 4 and 5 cross.*`tetproof.repair_plane\(\)` makes a vertex there"):
+        tetproof.plane(points, segments)
+    report = tetproof.check_plane(points, segments)
+    assert (report.valid, report.counts, report.places["crossing"].tolist()) == (False, {"crossing": 1}, [[4, 5]])
+    assert "`tetproof.repair_plane()`" in report.hints[0]
+    mended = tetproof.repair_plane(points, segments, markers=range(6))
+    assert mended.points[-1].tolist() == [0.5, 0.5] and mended.markers.tolist().count(4) == 2 and mended.done
+    assert tetproof.check_plane(mended.points, mended.segments).area == pytest.approx(1)
+    tetproof.plane(mended.points, mended.segments, mended.markers)
+    assert len(tetproof.repair_plane(points, segments, weld=0.1).points) == 5
+    with pytest.raises(ValueError, match="weld"):
+        tetproof.repair_plane(points, segments, weld=-1)
+
+
 def test_plane():
     square = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [2, 1], [2, 2], [1, 2]]
     segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]]

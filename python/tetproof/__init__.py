@@ -31,8 +31,9 @@ else:
     Array = np.ndarray
 
 __version__ = _core.version
-__all__ = ["Defect", "Error", "Face", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh",
-           "Repaired", "Report", "Surface", "TenNodes", "cdt", "check", "improve", "label_by_angle", "mesh", "plane", "read", "read_mesh", "repair", "write"]
+__all__ = ["Defect", "Error", "Face", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh", "PlaneReport",
+           "Repaired", "RepairedPlane", "Report", "Surface", "TenNodes", "cdt", "check", "check_plane", "improve", "label_by_angle", "mesh", "plane",
+           "read", "read_mesh", "repair", "repair_plane", "write"]
 
 #: Called several times a second with the phase, the fraction done (negative: unknown) and the vertices so far; False ends the run.
 Progress = Callable[[str, float, int], Optional[bool]]
@@ -320,6 +321,42 @@ class PlaneMesh:
 
 
 @dataclasses.dataclass(eq=False)
+class PlaneReport:
+    """What `check_plane` found.
+
+    Attributes
+    ----------
+    valid : bool
+    message : str
+        The first defect; empty if there is none.
+    counts : dict of str to int
+        By kind: "equal vertices", "segment without length", "overlap", "crossing".
+    places : dict of str to (n, 2) int32
+        All of each kind, up to a million: two points ("equal vertices"), or two segments, or one twice.
+    hints : list of str
+        What to do.
+    area : float
+        Of the inside; 0 if it is not valid.
+    """
+    valid: bool
+    message: str
+    counts: Dict[str, int]
+    places: Dict[str, Array]
+    hints: List[str]
+    warnings: List[str]
+    area: float
+
+
+@dataclasses.dataclass(eq=False)
+class RepairedPlane:
+    """A mended planar graph; `done` says what was done to it, a line each. `markers` is empty if none were given."""
+    points: Array
+    segments: Array
+    markers: Array
+    done: List[str]
+
+
+@dataclasses.dataclass(eq=False)
 class Report:
     """What `check` found.
 
@@ -409,6 +446,10 @@ def _in_python(text: str) -> str:
     return "".join(part if part.startswith("`") else re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), part) for part in outside)
 
 
+def _of_planes(text: str) -> str:
+    return _in_python(text).replace("tetproof.repair(", "tetproof.repair_plane(")
+
+
 def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Optional[Array]]:
     """Arrays, or an object that has them: of tetproof, trimesh (vertices, faces), meshio (points, cells_dict) or pyvista."""
     if triangles is None:
@@ -473,6 +514,10 @@ def _raise(result: Dict[str, Any], report: Callable[[], Optional[Report]] = lamb
     if status == "interrupted":
         raise Interrupted(message)
     raise Error(message)
+
+
+def _raise_plane(result: Dict[str, Any]) -> None:
+    _raise({**result, "message": _of_planes(result["message"])})
 
 
 def _mesh(result: Dict[str, Any], names: Optional[Mapping[int, str]] = None) -> Mesh:
@@ -729,10 +774,49 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
     named = _options("plane", options)
     with _shown(progress) as shown:
         result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes), named, shown)
-    _raise(result)
+    _raise_plane(result)
     fields = {f.name: _signed(result[f.name]) for f in dataclasses.fields(PlaneMesh)}
     fields["inside"] = fields["inside"].view(np.bool_)
     return PlaneMesh(**fields)
+
+
+def check_plane(points: Any, segments: Any) -> PlaneReport:
+    """Can a planar straight-line graph be meshed? If not, what is wrong, and where? Decided exactly.
+
+    Parameters
+    ----------
+    points, segments
+        As in `plane`.
+
+    >>> tetproof.check_plane([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]]).counts
+    {'crossing': 1}
+    """
+    result = _core.check_plane(_points(points), _indices(segments, "segments"))
+    if result["status"] not in ("ok", "invalid_surface"):
+        _raise_plane(result)
+    places = {kind: _signed(found) for kind, found in result["places"].items()}
+    return PlaneReport(result["status"] == "ok", _of_planes(result["message"]), {kind: len(found) for kind, found in places.items()}, places,
+                       [_of_planes(hint) for hint in result["hints"]], result["warnings"], result["area"])
+
+
+def repair_plane(points: Any, segments: Any, markers: Any = None, *, weld: float = 0) -> RepairedPlane:
+    """Mend a planar graph: merge points, drop segments without length and repeated ones, cut segments where they cross or overlap.
+
+    A crossing becomes a point, rounded to doubles; nothing else moves, unless it is merged.
+
+    Parameters
+    ----------
+    points, segments, markers
+        As in `plane`.
+    weld : float
+        Points no farther apart than this become one, the first of them. Equal ones do in any case.
+
+    >>> tetproof.repair_plane([[0, 0], [2, 2], [2, 0], [0, 2]], [[0, 1], [2, 3]]).points[-1].tolist()
+    [1.0, 1.0]
+    """
+    result = _core.repair_plane(_points(points), _indices(segments, "segments"), _labels(markers, "markers"), float(weld))
+    _raise_plane(result)
+    return RepairedPlane(result["points"], _signed(result["segments"]), result["markers"], result["done"])
 
 
 def read(path: "Union[str, os.PathLike[str]]") -> Surface:
