@@ -4,7 +4,6 @@
 // end they are printed as a table.
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <map>
 #include <set>
 #include <string>
@@ -44,20 +43,12 @@ TEST_P(Lies, AreCaughtByTheOracleMeantForThem) {
   judge("wedge and slab", GetParam().name, GetParam().oracle, verdict(told), GetParam().before);
 }
 
-std::string lie_name(const testing::TestParamInfo<Lie>& tested) {
-  std::string name = tested.param.name;
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Relaxed, Lies, testing::ValuesIn(relaxed()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Sections, Lies, testing::ValuesIn(sections()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Foreign, Lies, testing::ValuesIn(foreign()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Consistent, Lies, testing::ValuesIn(consistent()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Improved, Lies, testing::ValuesIn(improved()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Kept, Lies, testing::ValuesIn(kept()), lie_name);
+INSTANTIATE_TEST_SUITE_P(Relaxed, Lies, testing::ValuesIn(relaxed()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Sections, Lies, testing::ValuesIn(sections()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Foreign, Lies, testing::ValuesIn(foreign()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Consistent, Lies, testing::ValuesIn(consistent()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Improved, Lies, testing::ValuesIn(improved()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Kept, Lies, testing::ValuesIn(kept()), test_name<Lie>);
 
 VerifyReport verdict_on(const Told& told) {
   VerifyReport report;

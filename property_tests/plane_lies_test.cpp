@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <vector>
 
@@ -37,18 +36,10 @@ TEST_P(PlaneLies, AreCaughtByTheOracleMeantForThem) {
   judge("square with a dent", GetParam().name, GetParam().oracle, verdict(told), GetParam().before);
 }
 
-std::string lie_name(const testing::TestParamInfo<Lie>& tested) {
-  std::string name = tested.param.name;
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return name + "_" + std::to_string(tested.index);
-}
-
-INSTANTIATE_TEST_SUITE_P(Relaxed, PlaneLies, testing::ValuesIn(relaxed()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Sections, PlaneLies, testing::ValuesIn(sections()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Foreign, PlaneLies, testing::ValuesIn(foreign()), lie_name);
-INSTANTIATE_TEST_SUITE_P(Consistent, PlaneLies, testing::ValuesIn(consistent()), lie_name);
+INSTANTIATE_TEST_SUITE_P(Relaxed, PlaneLies, testing::ValuesIn(relaxed()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Sections, PlaneLies, testing::ValuesIn(sections()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Foreign, PlaneLies, testing::ValuesIn(foreign()), test_name<Lie>);
+INSTANTIATE_TEST_SUITE_P(Consistent, PlaneLies, testing::ValuesIn(consistent()), test_name<Lie>);
 
 // Without corners and drops the lies would be empty.
 TEST(PlaneLies, AreToldOfARunThatChamfersAndDrops) {

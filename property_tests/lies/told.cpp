@@ -84,8 +84,4 @@ void run_cdt(Told& told) {
   run_hull(told, Task::cdt);
 }
 
-void PrintTo(const Lie& lie, std::ostream* stream) {
-  *stream << lie.name;
-}
-
 }  // namespace tetproof::lies

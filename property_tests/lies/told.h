@@ -1,11 +1,11 @@
 // Lies about a run: the false account, and the oracle that should see through it.
 #pragma once
 
-#include <iosfwd>
 #include <span>
 
 #include "mesher/delmesher.h"
 #include "oracles/verify.h"
+#include "property_tests/lie.h"
 #include "property_tests/samples.h"
 
 namespace tetproof::lies {
@@ -49,14 +49,7 @@ void run_far_away(Told& told);
 // The constrained Delaunay tetrahedrization of the hull, told as it was.
 void run_cdt(Told& told);
 
-struct Lie {
-  const char* name;
-  const char* oracle;  // the one meant to catch it
-  void (*tell)(Told&);
-  const char* before = "";  // for the table: its fate before its row was there
-};
-
-void PrintTo(const Lie& lie, std::ostream* stream);
+using Lie = LieAbout<Told>;
 
 // Relaxed promises; sections emptied, cut short, out of date; records and files of other runs; mesh
 // and record changed together, so that both agree; local operations.

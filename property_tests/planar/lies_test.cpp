@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 #include <vector>
 
+#include "property_tests/lie.h"
 #include "property_tests/planar/runs.h"
 #include "property_tests/score_table.h"
 
@@ -152,15 +152,7 @@ void write_as_given(Told& told) {
       told.promise.tau * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-struct Lie {
-  const char* name;
-  const char* oracle;  // the one meant to catch it
-  void (*tell)(Told&);
-  const char* before = "";  // for the table: its fate before its row was there
-};
-void PrintTo(const Lie& lie, std::ostream* out) {
-  *out << lie.name;
-}
+using Lie = LieAbout<Told>;
 
 const Lie kLies[] = {
     {"facets are planar, promised was the surface as given", "exact-conformity",
@@ -436,13 +428,7 @@ TEST_P(PlanarLies, AreCaughtByTheOracleMeantForThem) {
   judge("rotated stairs", GetParam().name, GetParam().oracle, verdict_on(told), GetParam().before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), [](const auto& tested) {
-  std::string name = tested.param.name;
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), test_name<Lie>);
 
 }  // namespace
 }  // namespace tetproof::planar

@@ -254,7 +254,7 @@ const Lie kConsistent[] = {
        t.file.triangles.pop_back();
        t.file.inside.pop_back();
      }},
-    {"the same, by the file", "conformity",
+    {"a triangle of the inside left out, by the file", "conformity",
      [](Told& t) {
        recorded(t, t.file.triangles.size() / 2).side = Side::outside;
        t.file.triangles.erase(t.file.triangles.begin() +
@@ -265,7 +265,7 @@ const Lie kConsistent[] = {
      [](Told& t) {
        t.graph.holes = {{0.5, 0.5}};
      }},
-    {"the same, by the file", "sides",
+    {"the hole filled, by the file", "sides",
      [](Told& t) {
        t.graph.holes = {{0.515625, 0.53125}};
      }},

@@ -64,8 +64,4 @@ std::size_t steiner(const Told& told) {
   return 0;
 }
 
-void PrintTo(const Lie& lie, std::ostream* stream) {
-  *stream << lie.name;
-}
-
 }  // namespace tetproof::plane_lies

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <span>
 #include <vector>
 
 #include "mesher/delmesher_plane.h"
 #include "oracles/plane/verify.h"
+#include "property_tests/lie.h"
 
 namespace tetproof::plane_lies {
 
@@ -41,14 +41,7 @@ delmesher::PlaneRecord::Triangle& some(std::vector<delmesher::PlaneRecord::Trian
 // The first written vertex that is not of the input.
 std::size_t steiner(const Told& told);
 
-struct Lie {
-  const char* name;
-  const char* oracle;  // the one meant to catch it
-  void (*tell)(Told&);
-  const char* before = "";  // for the table: its fate before its row was there
-};
-
-void PrintTo(const Lie& lie, std::ostream* stream);
+using Lie = LieAbout<Told>;
 
 // Relaxed promises; sections emptied, cut short, out of date; records and files of other runs; mesh
 // and record changed together, so that both agree.
