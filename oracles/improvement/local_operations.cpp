@@ -327,9 +327,10 @@ class Improvement {
   }
 
   // How many are how bad: in all, and in each part of the mesh that is within reach of what is bad
-  // now, the k-th worst angle is at least half of what the k-th worst was, or of the goal. One
-  // operation may trade a few angles that are nearly as bad for one that was worst. Nor are there
-  // more than twice as many tetrahedra; a few may be new where there are few.
+  // now, at most four times as many angles as were as bad, within a factor of two, however small
+  // they are; what is not below the goal is as good as that. One operation may trade a few angles
+  // that are nearly as bad for one that was worst. Nor are there more than twice as many
+  // tetrahedra; a few may be new where there are few.
   void count() {
     std::uint64_t inside_before = 0;
     for (const ExactRecord::Tet& tet : record_.unrepaired) inside_before += counts(tet) ? 1 : 0;
@@ -350,8 +351,6 @@ class Improvement {
                                    static_cast<double>(is.size()));
       compare(was, is, goal, name);
     }
-    report_.figures.emplace_back("ranks below 1 degree, not compared",
-                                 static_cast<double>(not_compared_));
   }
 
   // Of each vertex within reach of a tetrahedron that is bad now the part of the mesh that it is
@@ -424,17 +423,14 @@ class Improvement {
       // Where all vertices have moved, nothing that was there before has a name in this part.
       const bool named = begin != was.end() && begin->part == is[i].part;
       if (!named && is[i].part != kAll) continue;
-      const std::size_t k = i - first;
+      const std::size_t k = (i - first) / kTimesAsMany;
       const std::size_t there = k < static_cast<std::size_t>(was.end() - begin) &&
                                 begin[static_cast<std::ptrdiff_t>(k)].part == is[i].part;
       const double least = there != 0 ? begin[static_cast<std::ptrdiff_t>(k)].angle : goal;
-      if (least < kHopeless) {
-        ++not_compared_;
-        continue;
-      }
       if (is[i].angle >= kTraded * least - kRoundings) continue;
-      report_.fail("the " + std::string(name) + " angle of rank " + std::to_string(k + 1) + " is " +
-                   std::to_string(is[i].angle) + " degrees, and was " + std::to_string(least));
+      report_.fail("the " + std::string(name) + " angle of rank " + std::to_string(i - first + 1) +
+                   " is " + std::to_string(is[i].angle) + " degrees, and that of rank " +
+                   std::to_string(k + 1) + " was " + std::to_string(least));
     }
   }
 
@@ -533,9 +529,7 @@ class Improvement {
   static constexpr std::uint8_t kFar = 255;
   static constexpr Index kAll = kNone - 1;  // no vertex: the part that is all of the mesh
   static constexpr double kTraded = 0.5;
-  // Degrees. Where the angle of a rank was below this, the one after may be anything: honest meshes
-  // of near-degenerate solids trade such angles by factors. How many were, a figure tells.
-  static constexpr double kHopeless = 1;
+  static constexpr std::size_t kTimesAsMany = 4;
   static constexpr std::uint64_t kFew = 100;  // tetrahedra
   static constexpr double kSlack = 1 - 1e-6;  // of angles, computed in doubles
   // Degrees: which of two tetrahedra that are flat but for roundings is flatter, doubles do not
@@ -548,7 +542,6 @@ class Improvement {
   const bool all_;
   const WorstAngles goal_;
   const double longest_;
-  std::uint64_t not_compared_ = 0;
   const EdgeSizes sizes_;
   const std::vector<Index>& returned_;
   std::vector<WorstAngles> worst_;  // per point, of the tetrahedra there before
