@@ -85,7 +85,9 @@ delmesher::Statistics expect_written_positive(const char* family, std::uint64_t 
   const auto surface = generate(*find_family(family), 1, member);
   EXPECT_TRUE(surface);
   if (!surface) return {};
-  const auto result = delmesher::tetrahedralize(*surface, {});
+  delmesher::Options options;
+  options.surface = delmesher::SurfaceChoice::split;
+  const auto result = delmesher::tetrahedralize(*surface, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(fuzz::default_pipeline_holds(*surface), "") << family << member;
   return result.statistics;
@@ -234,6 +236,7 @@ TEST(Regressions, ThinWallsEnd) {
   for (const std::uint64_t member : {103, 107}) {
     const Surface surface = *generate(*find_family("cavities"), 1, member);
     delmesher::Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.max_vertices = 10000;
     const auto result = delmesher::tetrahedralize(surface, options);
     EXPECT_TRUE(result.status.ok()) << member << ": " << result.status.message;
@@ -243,14 +246,16 @@ TEST(Regressions, ThinWallsEnd) {
 // Lengths whose fourth powers are not doubles.
 TEST(Scale, ExtremeSizesGiveTheSameMesh) {
   const Surface surface = *generate(*find_family("boolean_boxes"), 1, 0);
-  const auto plain = delmesher::tetrahedralize(surface);
+  delmesher::Options split;
+  split.surface = delmesher::SurfaceChoice::split;
+  const auto plain = delmesher::tetrahedralize(surface, split);
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   for (const int exponent : {-400, -268, 268}) {
     Surface scaled = surface;
     for (auto& p : scaled.vertices) {
       for (double& x : p) x = std::ldexp(x, exponent);
     }
-    const auto result = delmesher::tetrahedralize(scaled);
+    const auto result = delmesher::tetrahedralize(scaled, split);
     ASSERT_TRUE(result.status.ok()) << exponent << ": " << result.status.message;
     EXPECT_EQ(result.mesh.tetrahedra, plain.mesh.tetrahedra) << exponent;
     ASSERT_EQ(result.mesh.vertices.size(), plain.mesh.vertices.size()) << exponent;

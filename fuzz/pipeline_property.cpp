@@ -337,18 +337,32 @@ Finding pipeline_holds(const Surface& surface) {
   return {};
 }
 
-Finding default_pipeline_holds(const Surface& surface) {
-  judging({&nothing_refined});
-  Options options;
-  options.want_exact = true;
+namespace {
+
+Finding whole_pipeline_holds(const Surface& surface, const Options& options, bool& kept) {
   const Result result = delmesher::tetrahedralize(surface, options);
+  kept = result.statistics.ladder[delmesher::Rung::keep_surface] > 0;
   if (!result.status.ok()) return "status: " + result.status.message;
   if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
     return "rounding: inverted or flat tetrahedra are left";
   }
   const oracles::Promise promise = oracles::promise_of(options);
+  if (kept) return verified(surface, result, Stage::both, promise);
   if (Finding f = verified(surface, result, Stage::refined, promise); !f.empty()) return f;
   return verified(surface, result, Stage::final, promise);
+}
+
+}  // namespace
+
+// A surface that the defaults keep is split as well.
+Finding default_pipeline_holds(const Surface& surface) {
+  judging({&nothing_refined});
+  Options options;
+  options.want_exact = true;
+  bool kept = false;
+  if (Finding f = whole_pipeline_holds(surface, options, kept); !f.empty() || !kept) return f;
+  options.surface = delmesher::SurfaceChoice::split;
+  return whole_pipeline_holds(surface, options, kept);
 }
 
 }  // namespace tetproof::fuzz

@@ -136,9 +136,9 @@ struct Filtering {
 };
 
 constexpr Step<Filtering> kFiltering[] = {
-    {Rung::larger_tau, [](const Filtering& f) { return f.r.budget.can_double_tau(); },
+    {Rung::larger_tau, [](const Filtering& f) { return f.r.budget.can_raise_tau(f.r.s); },
      [](Filtering& f) {
-       f.r.budget.double_tau();
+       f.r.budget.raise_tau(f.r.s);
        f.attempt();
      }},
 };
@@ -427,6 +427,12 @@ Result run(const Pipeline& pipeline, const Options& options, const LocalFrame& f
   return result;
 }
 
+Result run_kept(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  return run(
+      [&](Session& s, Recorder& recorder) { return mesh_kept_surface(surface, s, recorder); },
+      options, frame);
+}
+
 // Whole runs; the best counts.
 struct Runs {
   const Surface& surface;
@@ -434,23 +440,49 @@ struct Runs {
   PlanarRuns planes;
   Result best;
 
-  bool good_enough() const { return PlanarRuns::good_enough(best); }
+  bool good_enough() const { return !is_too_heavy() && PlanarRuns::good_enough(best); }
+  bool is_too_heavy() const { return planes.is_too_heavy(best); }
 
   Result run_with(Planes how, const Options& options) const {
     return run([&](Session& s, Recorder& recorder) { return mesh_with(how, surface, s, recorder); },
                options, frame);
   }
   void run_again(Planes how) { PlanarRuns::keep_better(run_with(how, planes.options()), best); }
+  void keep_surface() {
+    const Statistics split = std::move(best.statistics);
+    best = run_kept(surface, planes.kept_options(), frame);
+    best.statistics.ladder += split.ladder;
+    best.statistics.predicted_tetrahedra = split.predicted_tetrahedra;
+  }
 };
 
 constexpr Step<Runs> kRuns[] = {
+    {Rung::keep_surface, [](const Runs& r) { return r.is_too_heavy(); },
+     [](Runs& r) { r.keep_surface(); }},
     {Rung::back_to_given, [](const Runs& r) { return r.planes.applies(Rung::back_to_given); },
      [](Runs& r) { r.run_again(Planes::while_refined); }},
     {Rung::no_planes, [](const Runs& r) { return r.planes.applies(Rung::no_planes); },
      [](Runs& r) { r.run_again(Planes::none); }},
 };
 
-Result run_mesh(const Surface& surface, const Options& options, const LocalFrame& frame) {
+// Has every edge of the surface the length asked for? Others have to be split.
+bool is_fine_enough(const Surface& surface, const Options& options) {
+  const double longest = options.max_edge * options.max_edge;
+  return options.size_field.empty() &&
+         (longest == 0 || std::ranges::all_of(surface.triangles, [&](const auto& t) {
+            const auto is_short = [&](int i, int j) {
+              const auto& at = surface.vertices;
+              return squared_norm(subtract(at[t[i]], at[t[j]])) <= longest;
+            };
+            return is_short(0, 1) && is_short(1, 2) && is_short(2, 0);
+          }));
+}
+
+Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
+  Options options = given;
+  if (options.surface == SurfaceChoice::automatic && !is_fine_enough(surface, options)) {
+    options.surface = SurfaceChoice::split;
+  }
   Runs runs{surface, frame, PlanarRuns(options), {}};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
@@ -460,12 +492,6 @@ Result run_mesh(const Surface& surface, const Options& options, const LocalFrame
   return std::move(runs.best);
 }
 
-Result run_kept(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  return run(
-      [&](Session& s, Recorder& recorder) { return mesh_kept_surface(surface, s, recorder); },
-      options, frame);
-}
-
 Result run_plain_cdt(const Surface& surface, const Options& options, const LocalFrame& frame) {
   return run([&](Session& s, Recorder& recorder) { return surface_alone(surface, s, recorder); },
              options, frame);
@@ -473,7 +499,9 @@ Result run_plain_cdt(const Surface& surface, const Options& options, const Local
 
 }  // namespace
 
-Result tetrahedralize(const Surface& surface, const Options& options) {
+Result tetrahedralize(const Surface& surface, const Options& given) {
+  Options options = given;
+  options.surface = surface_choice(given);
   return in_ordinary_units(surface, options,
                            options.surface == SurfaceChoice::keep ? run_kept : run_mesh);
 }

@@ -110,6 +110,10 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     if (std::string why = label_by_angle(*labelled, degrees); !why.empty()) return why;
     frame.input = &*labelled;
   }
+  if (exact != nullptr) frame.options.promised.settle(*exact);
+  if (frame.options.promised.keep && frame.options.stage == Stage::both) {
+    frame.options.stage = Stage::final;
+  }
   report = {};
   if (exact != nullptr && names_origin(*exact) && !move_beside_origin(frame, report)) {
     conclude(0, 0, report);
@@ -124,7 +128,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   shared = std::make_unique<SharedData>(*frame.input, frame.exact, frame.options.promised, memory);
   const Subject subject{*frame.input, *frame.mesh, frame.exact,        frame.options,
                         *shared,      memory,      frame.largest_given};
-  const std::vector<PlannedStep> planned = plan(frame.exact, options.stage);
+  const std::vector<PlannedStep> planned = plan(frame.exact, frame.options.stage);
   std::vector<std::unique_ptr<Step>> steps;
   for (const PlannedStep& step : planned) {
     steps.push_back(step.start(subject));
@@ -148,7 +152,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   }
   double ulp = 0, diagonal = 0;
   for (const std::size_t n : order) steps[n]->move_to(report, ulp, diagonal);
-  report.scope = scope_of(options, exact != nullptr);
+  report.scope = scope_of(frame.options, exact != nullptr);
   if (exact == nullptr) {
     std::ranges::copy(options.promised.of_record, std::back_inserter(report.unproven));
   }

@@ -68,6 +68,7 @@ void expect_verified(const Surface& surface, const oracles::Promise& promise,
 
 Options with_record() {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.want_exact = true;
   return options;
 }

@@ -50,6 +50,7 @@ Told run_of(const delmesher::Surface& surface, Options options = {}) {
 const Told& honest() {
   static const Told told = [] {
     Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.tau = 0x1p-9;  // takes the slab apart
     return run_of(samples::wedge_and_slab(), options);
   }();
@@ -62,6 +63,7 @@ class Models : public testing::TestWithParam<NamedSurface> {};
 TEST_P(Models, AreNeverWorseThanWithoutIt) {
   for (const auto region : {delmesher::Region::interior, delmesher::Region::hull}) {
     Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.region = region;
     const Told improved = run_of(GetParam().surface, options);
     const VerifyReport report = improved.verify();
@@ -113,6 +115,7 @@ delmesher::Surface ball(int rounds) {
 
 TEST(Improvement, OfABallTakesLessAndIsRounder) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   const auto improved = run_of(ball(3), options).statistics.final;
   options.improve = false;
   options.slivers = true;
@@ -335,6 +338,7 @@ std::size_t inside_near(const ExactRecord& record, const std::vector<ExactRecord
 // none far from it.
 TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.improve = false;  // the mesh before and after is the same
   const Told plain = run_of(bar(40), options);
   ASSERT_TRUE(plain.record.unrepaired.empty());
@@ -383,6 +387,7 @@ TEST(Improvement, WhichIsFlatterByRoundingsIsNotTold) {
 // A worst tetrahedron that was there before allows no other one as bad at another place.
 TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.improve = false;
   Told told = run_of(bar(40), options);
   told.promise.improve = true;
@@ -402,6 +407,7 @@ TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
 // place tell what was near, and the report how often.
 TEST(Improvement, IsExcusedByWhatWasThereWhereAllVerticesMoved) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.improve = false;
   const Told plain = run_of(bar(40), options);
   const auto judged = [&plain](double before, double after) {

@@ -26,6 +26,7 @@ constexpr std::uint64_t kSeed = 20261122;
 
 Result mesh(const Surface& surface) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.want_exact = true;
   Result result = delmesher::tetrahedralize(surface, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
@@ -159,6 +160,7 @@ Surface rotated_and_scaled(const Surface& surface, const Quaternion& q, bool bac
 TEST_P(Metamorphic, ExactRotationsKeepShapeAndVerdicts) {
   const Surface original = with_short_coordinates(GetParam().surface, 24);
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.tau = 0;
   options.want_exact = true;
   const Result straight = delmesher::tetrahedralize(original, options);
@@ -297,6 +299,7 @@ TEST_P(Metamorphic, UnionWithADisjointCopyDoublesEverything) {
   }
   // Filtering is relative to the diagonal, which the copy enlarges.
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.want_exact = true;
   options.tau = 0;
   const Shape one = shape_of(delmesher::tetrahedralize(original, options));

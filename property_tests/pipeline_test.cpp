@@ -29,6 +29,7 @@ constexpr std::uint64_t kSeed = 20261121;
 // The paper's thresholds, empty balls and region.
 Options paper_options() {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.acute = options.corner = 90;
   options.gabriel = true;
   options.region = delmesher::Region::hull;
@@ -45,6 +46,7 @@ Options all_as_paper() {
 
 Options default_options() {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.want_exact = true;
   return options;
 }
@@ -194,6 +196,7 @@ TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
     EXPECT_FALSE(result.statistics.enriched);
     // But they are refined where other sizes or the surroundings are asked for.
     Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.max_edge = 0.25;
     EXPECT_GT(delmesher::tetrahedralize(model.surface, options).mesh.tetrahedra.size(), 50U);
     options.max_edge = 0;
@@ -297,7 +300,7 @@ TEST(Refinement, EndsOnThinPlatesWithMoreTetrahedraTheThinnerTheyAre) {
   for (const double h : {0.2, 0.1, 0.05}) {
     Surface surface = samples::to_surface(samples::cube().input);
     for (auto& p : surface.vertices) p[2] *= h;
-    const Result result = delmesher::tetrahedralize(surface);
+    const Result result = delmesher::tetrahedralize(surface, default_options());
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_GT(result.mesh.tetrahedra.size(), last) << h;
     EXPECT_LT(result.mesh.tetrahedra.size(), 400 / (h * h)) << h;
@@ -377,6 +380,7 @@ TEST(Threads, AnyNumberGivesTheSameReport) {
 TEST(Limits, AreErrorsAsValues) {
   const Surface surface = samples::to_surface(samples::skewed(samples::l_shape()).input);
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.max_vertices = 20;
   const delmesher::Status limit = delmesher::tetrahedralize(surface, options).status;
   EXPECT_EQ(limit.code, StatusCode::limit_reached);
@@ -446,6 +450,7 @@ TEST(Precision, EndsWithALimitThatNamesTheEdge) {
   for (const double gap : {1e-60, 1e-100, 1e-323}) {
     for (const double tau : {1e-4, 0.0}) {
       Options options;
+      options.surface = delmesher::SurfaceChoice::split;
       options.tau = tau;
       const Surface surface = crossing_edges(gap);
       EXPECT_TRUE(delmesher::check_surface(surface).status.ok());

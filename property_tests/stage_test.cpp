@@ -156,6 +156,7 @@ TEST(Figure3, NaiveChamferingLeavesAcuteAnglesAtTheHole) {
 // Chamfers all that is acute, and drops nothing.
 Options every_corner(bool simplify_bridges) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.acute = options.corner = 90;
   options.tau = 0;
   options.want_exact = true;
@@ -282,6 +283,7 @@ TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
       samples::add_box(plates, {0, 0, z}, {1, 1, z + 1});
     }
     Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.want_exact = true;
     options.tau = 0x1p-8 / std::sqrt(1 + 1 + (2 + gap) * (2 + gap));
     const Result result = delmesher::tetrahedralize(plates, options);
@@ -309,6 +311,7 @@ TEST(FilterStage, DropsWhatIsBesideALongGap) {
     const Surface wedge =
         samples::triangular_prism({{{0, 0}, {length, 0}, {length, 3}}}, 0, length);
     Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.want_exact = true;
     options.tau = 2 / std::hypot(length, length, 3);
     const Result result = delmesher::tetrahedralize(wedge, options);
@@ -374,6 +377,7 @@ TEST(Figure8, RefinementEndsAndCountsExplodeAsTheGapShrinks) {
   for (const double h : {0.1, 0.01, 0.001}) {
     const Surface surface = samples::finned_cube(0.03, h);
     Options options;
+    options.surface = delmesher::SurfaceChoice::split;
     options.tau = 0;
     options.gabriel = true;   // the paper's; without, thin gaps cost less
     options.improve = false;  // takes out more where there is more

@@ -42,6 +42,8 @@ constexpr const char* kKnownOrder[] = {"tetgen-T0",
                                        "delmesher-e4",
                                        "delmesher-nofilter",
                                        "delmesher-nobridges",
+                                       "delmesher-split",
+                                       "delmesher-keep",
                                        "delmesher"};
 
 std::vector<std::string> ordered_meshers(

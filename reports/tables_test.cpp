@@ -268,9 +268,9 @@ TEST(Tables, Speed) {
 TEST(Tables, DeviationsStandBesideTheDefault) {
   std::vector<RunRow> rows;
   for (const Made& made :
-       std::initializer_list<Made>{{"a", "delmesher", kOk, 1000, 4, 1, 0, 0},
-                                   {"b", "delmesher", kOk, 3000, 6, 1, 0, 0},
-                                   {"c", "delmesher", Disposition::crash, 0, 0, 1, 0, 0},
+       std::initializer_list<Made>{{"a", "delmesher-split", kOk, 1000, 4, 1, 0, 0},
+                                   {"b", "delmesher-split", kOk, 3000, 6, 1, 0, 0},
+                                   {"c", "delmesher-split", Disposition::crash, 0, 0, 1, 0, 0},
                                    {"a", "delmesher+order", kOk, 2000, 3, 1, 0, 0},
                                    {"b", "delmesher+order", Disposition::timeout, 0, 0, 1, 0, 0},
                                    {"c", "delmesher+order", kOk, 77, 3, 1, 0, 0},
@@ -284,8 +284,8 @@ TEST(Tables, DeviationsStandBesideTheDefault) {
   const Table table = deviation_table(selection);
   ASSERT_EQ(table.rows.size(), 3U);
   auto t = cells(table);
-  EXPECT_EQ(t["delmesher"]["ok of runs"], "2/3");
-  EXPECT_EQ(t["delmesher"]["All tetrahedra"], "1.000");
+  EXPECT_EQ(t["delmesher-split"]["ok of runs"], "2/3");
+  EXPECT_EQ(t["delmesher-split"]["All tetrahedra"], "1.000");
   EXPECT_EQ(t["delmesher+order"]["ok of runs"], "2/3");
   EXPECT_EQ(t["delmesher+order"]["Models with both"], "1");
   EXPECT_EQ(t["delmesher+order"]["All tetrahedra"], "2.000");

@@ -37,9 +37,10 @@ constexpr OwnVariant kOwn[] = {
     {"safe-delmesher-e4", "mesh --preset paper --slivers off"},
     {"delmesher-nofilter", "mesh --preset paper --tau 0"},
     {"delmesher-nobridges", "mesh --preset paper --simplify-bridges off"},
+    {"delmesher-split", "mesh --surface split"},
     {"delmesher-keep", "mesh --surface keep"},
     {"cdt", "cdt --region hull"}};
-// One deviation from the default at a time, towards the paper: of the parameters and of
+// One deviation from delmesher-split at a time, towards the paper: of the parameters and of
 // section 8.3. Each of the choices of --as-paper is another one.
 constexpr OwnVariant kDeviations[] = {
     {"gabriel", "mesh --gabriel"},         {"acute-90", "mesh --acute 90 --corner 90"},
@@ -393,7 +394,7 @@ std::string why_not_at_hand(const std::string& name, const MesherPrograms& progr
 }
 
 std::vector<std::string> ablation_names() {
-  std::vector<std::string> names = {"delmesher"};
+  std::vector<std::string> names = {"delmesher-split"};
   for (const OwnVariant& variant : kDeviations) {
     names.push_back(std::string("delmesher+") + variant.name);
   }

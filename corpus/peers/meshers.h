@@ -51,10 +51,11 @@ struct Mesher {
 };
 
 // Understands
-//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges delmesher-keep
-//   cdt
+//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges delmesher-split
+//   delmesher-keep cdt
 //   tetgen tetgen-T0 netgen gmsh-delaunay ...     the peers of peers.h
-//   delmesher+NAME                     one departure of its default from the paper undone: gabriel,
+//   delmesher+NAME                     one departure of delmesher-split from the paper undone:
+//   gabriel,
 //                                      acute-90, planar-0, improve-off, slivers-off, hull, or a
 //                                      name of --as-paper
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options

@@ -51,6 +51,7 @@ TEST_F(Meshers, ThePapersExperiments) {
   EXPECT_EQ(command("delmesher-e4"), own + " mesh --preset paper" + files);
   EXPECT_EQ(command("safe-delmesher-e4"), own + " mesh --preset paper --slivers off" + files);
   EXPECT_EQ(command("delmesher-nofilter"), own + " mesh --preset paper --tau 0" + files);
+  EXPECT_EQ(command("delmesher-split"), own + " mesh --surface split" + files);
   EXPECT_EQ(command("delmesher-keep"), own + " mesh --surface keep" + files);
   EXPECT_EQ(command("cdt"), own + " cdt --region hull" + files);
   const std::string tetgen = (programs_.adapters / "tetproof-tetgen").string();
@@ -65,7 +66,7 @@ TEST_F(Meshers, EveryDeviationAlone) {
   EXPECT_EQ(command("delmesher+acute-90"), own + " mesh --acute 90 --corner 90" + files);
   EXPECT_THROW(make_mesher("delmesher+nothing", programs_), std::runtime_error);
   const std::vector<std::string> names = ablation_names();
-  EXPECT_EQ(names.front(), "delmesher");
+  EXPECT_EQ(names.front(), "delmesher-split");
   EXPECT_EQ(names.back(), "delmesher-e4");
   EXPECT_EQ(names.size(), 2 + 6 + delmesher::options::paper_choices<delmesher::Options>().size());
   for (const std::string& name : names) EXPECT_EQ(make_mesher(name, programs_).name, name);

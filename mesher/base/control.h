@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "mesher/base/namespaces.h"
@@ -37,6 +38,9 @@ class Control {
   // Consults clock and callback now, whatever the counter says.
   void poll_now(std::uint64_t vertices, double done);
 
+  // No more vertices from now on, whatever Limits::max_vertices says beyond that.
+  void allow(std::uint64_t vertices) { allowed_ = vertices; }
+
   // Reported with the progress from now on.
   void predict(double tetrahedra) { predicted_ = tetrahedra; }
 
@@ -58,6 +62,7 @@ class Control {
   bool in_phase_ = false;
   std::uint32_t calls_ = 0;
   double predicted_ = 0;
+  std::uint64_t allowed_ = std::numeric_limits<std::uint64_t>::max();
   std::array<double, kPhaseCount> seconds_{};
 };
 

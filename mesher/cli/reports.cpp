@@ -334,6 +334,11 @@ std::vector<std::string> limits_texts(const Statistics& s) {
     texts.emplace_back(
         "slivers, or angles above the guaranteed ones, were given up at four times the points");
   }
+  if (s.ladder[Rung::keep_surface] > 0) {
+    texts.push_back("the surface is kept, without a bound on angles: with one, about " +
+                    number_short(s.predicted_tetrahedra) +
+                    " tetrahedra are predicted (--surface split)");
+  }
   if (s.left_on_surface > 0) {
     texts.push_back("the surface is kept but for " + std::to_string(s.left_on_surface) +
                     " vertices that found no way off it (--strict makes that a failure)");

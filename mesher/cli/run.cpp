@@ -148,8 +148,8 @@ int Runner::mesh() {
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
   if (result.status.ok() && options != nullptr) {
-    for (std::string& warning :
-         quality_warnings(result, options->surface == SurfaceChoice::keep ? 0 : options->delta)) {
+    const bool kept = options->surface == SurfaceChoice::keep || s.ladder[Rung::keep_surface] > 0;
+    for (std::string& warning : quality_warnings(result, kept ? 0 : options->delta)) {
       result.warnings.push_back(std::move(warning));
     }
     for (std::string& warning : edge_warnings(result.mesh, *options)) {

@@ -10,7 +10,7 @@ namespace delmesher {
 // In the order in which the rungs are taken: those of a stage are complete before the next stage
 // begins, and the last ones repeat the run. What an attempt has to do to be good enough:
 enum class Rung : std::uint8_t {
-  // Filter and chamfering: the prediction keeps to the budget.
+  // Filter and chamfering: the prediction keeps to the budget, or to what automatic allows.
   larger_tau,
   // Refinement: it ends.
   empty_balls,
@@ -25,12 +25,14 @@ enum class Rung : std::uint8_t {
   thin_out,
   input_alone,
   all_repairs,
-  // The run: the same, where vertices were moved to make facets planar; and with --planar 0 the
-  // mesh has gone back.
+  // The run: with --surface auto, the mesh is not too heavy. No tetrahedron is inverted or flat,
+  // where
+  // vertices were moved to make facets planar; and with --planar 0 the mesh has gone back.
+  keep_surface,
   back_to_given,
   no_planes
 };
-inline constexpr std::size_t kRungCount = 12;
+inline constexpr std::size_t kRungCount = 13;
 
 // Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
 struct RungRow {
@@ -43,7 +45,8 @@ struct RungRow {
 };
 
 inline constexpr std::array<RungRow, kRungCount> kLadder = {{
-    {"larger_tau", 14, "tau is below 0.05", "twice the tau: the filter drops more", "the surface",
+    {"larger_tau", 14, "tau is below 0.05, or below that asked for with --surface auto",
+     "twice the tau, or that asked for: the filter drops more", "the surface",
      "filter, chamfering"},
     {"empty_balls", 1, "they are not asked for", "empty diametral balls", "tau",
      "filter, chamfering, refinement"},
@@ -63,6 +66,8 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
      "a constrained tetrahedrization, the repairs"},
     {"all_repairs", 1, "more than a few defects are left", "repairs without a limit", "the mesh",
      "milliseconds for each defect"},
+    {"keep_surface", 1, "--surface auto", "as with --surface keep", "nothing",
+     "a tetrahedron or two per triangle"},
     {"back_to_given", 1, "the mesh may go back", "as with planar facets only while it is refined",
      "nothing", "a run"},
     {"no_planes", 1, "", "no planar facets", "nothing", "a run; tetrahedra as before"},

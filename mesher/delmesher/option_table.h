@@ -48,7 +48,7 @@ struct Text {
   bool zero_is_none = false;       // on the command line one leaves the option out instead
   bool promised = false;           // the oracles check it, if named in --promised
   bool with_kept_surface = false;  // SurfaceChoice::keep uses it
-  std::array<Word, 2> words = {};
+  std::array<Word, 3> words = {};
 };
 
 template <class... Members>
@@ -66,10 +66,12 @@ inline constexpr std::string_view kPaper = "paper_";
 inline constexpr std::tuple kTable{
     Row({.name = "surface",
          .help = "split: add vertices where angles call for them; keep: each triangle is one face, "
-                 "for few tetrahedra without a bound on angles",
+                 "for few tetrahedra without a bound on angles; auto: keep where split takes more "
+                 "than four times as many",
+         .bounds = {.high = 2},
          .promised = true,
          .with_kept_surface = true,
-         .words = {{{"split", 0}, {"keep", 1}}}},
+         .words = {{{"split", 0}, {"keep", 1}, {"auto", 2}}}},
         &Options::surface),
     Row({.name = "strict",
          .help = "with --surface keep: fail where an added vertex cannot leave the surface",

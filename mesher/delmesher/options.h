@@ -18,14 +18,17 @@ inline constexpr double kPlanarAuto = -1;
 // What becomes of the triangles of the surface.
 enum class SurfaceChoice : std::uint8_t {
   split,  // vertices are added to it where angles call for them
-  keep  // each is one face of the mesh, and no vertex is added: few tetrahedra, no bound on angles
+  keep,  // each is one face of the mesh, and no vertex is added: few tetrahedra, no bound on angles
+  // Split, unless that is predicted to take more than four times the tetrahedra of a kept surface.
+  automatic
 };
 
 // Of tetrahedralize().
 struct Options : Limits {
   // A surface is kept with the options that have Text::with_kept_surface in option_table.h; the
-  // others have to be as they are by default.
-  SurfaceChoice surface = SurfaceChoice::split;
+  // others have to be as they are by default. `automatic` is `split` with them, with a size field,
+  // and if the surface has edges above max_edge.
+  SurfaceChoice surface = SurfaceChoice::automatic;
   // A vertex on a kept surface that finds no way off it ends the run with Limit::precision. It is
   // counted otherwise.
   bool strict = false;
@@ -33,7 +36,8 @@ struct Options : Limits {
   // ratio of 2; above it the bound is best effort and insertions are capped.
   double delta = 14.47;
   // Input filter (section 7): facets closer than this fraction of the bounding-box diagonal are
-  // left to the final step. 0 turns the filter off.
+  // left to the final step. 0 turns the filter off. With SurfaceChoice::automatic it is 1e-9 where
+  // that takes few tetrahedra.
   double tau = 1e-4;
   // Tetrahedra wanted at most: if more are predicted, tau is doubled until it fits. The final mesh
   // conforms all the same. It may still be larger, because the prediction is within a factor of 3

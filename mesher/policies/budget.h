@@ -8,25 +8,35 @@
 namespace delmesher::policies {
 
 // The filter's tolerance is Options::tau, and doubled as long as more tetrahedra are predicted than
-// Options::budget says (0: never).
+// Options::budget says (0: never). With SurfaceChoice::automatic the budget is what the option says
+// there, and the tolerance kFinestTau, or Options::tau where that is too much.
 class Budget {
  public:
-  explicit Budget(const Options& options) : budget_(options.budget), tau_(options.tau) {}
+  // A fraction of the diagonal. Features that are smaller are hardly meant, and few doubles tell
+  // their points apart.
+  static constexpr double kFinestTau = 1e-9;
+
+  explicit Budget(const Options& options)
+      : is_automatic_(options.surface == SurfaceChoice::automatic),
+        budget_(static_cast<double>(options.budget)),
+        tau_(is_automatic_ ? kFinestTau : options.tau) {}
 
   // In force: a fraction of the diagonal.
   double tau() const { return tau_; }
   // Predicts the mesh of that surface, which was filtered with tau().
   void predict(const chamfer::ChamferedSurface& surface, const Session& session,
                Recorder& recorder);
-  bool is_kept() const { return budget_ == 0 || predicted_ <= static_cast<double>(budget_); }
+  bool is_kept() const { return budget_ == 0 || predicted_ <= budget_; }
   // Not beyond a twentieth of the diagonal, because whole features of the model would go.
-  bool can_double_tau() const;
-  void double_tau();
-  // Tells Session::control the prediction; throws Stopped if it exceeds the budget.
+  bool can_raise_tau(const Session& session) const;
+  void raise_tau(const Session& session);
+  // Tells Session::control the prediction; throws Stopped, as a limit of size, if it exceeds the
+  // budget. With SurfaceChoice::automatic a refinement far beyond it ends in the same way.
   void settle(Session& session) const;
 
  private:
-  const std::uint64_t budget_;
+  const bool is_automatic_;
+  double budget_;  // tetrahedra; 0: none, or not known yet
   double tau_, predicted_ = 0;
 };
 

@@ -24,8 +24,13 @@ class PlanarRuns {
   static bool good_enough(const Result& best);
   // May such a run, one of the rungs that repeat the run, make it better?
   bool applies(Rung rung) const;
-  // The options of all runs after the first one.
+  // The options of all runs after the first one, unless it was too heavy.
   Options options() const;
+  // With SurfaceChoice::automatic: would the best result so far, the first, be too heavy, or finer
+  // than doubles?
+  bool is_too_heavy(const Result& best) const;
+  // The options of the run after that.
+  Options kept_options() const;
   // `best` becomes the result of such a run if it is better, if that run was interrupted, or if no
   // way led back from `best`. If it does not, its statistics name the limit that ended that run.
   static void keep_better(Result result, Result& best);
@@ -34,6 +39,7 @@ class PlanarRuns {
   using Clock = std::chrono::steady_clock;
 
   double seconds_left() const;
+  Options in_time_left(Options options) const;
 
   const Clock::time_point start_ = Clock::now();
   const Options& first_;

@@ -51,20 +51,23 @@ std::string value_defect(const options::Text& /*option*/, const std::vector<Size
   return {};
 }
 
-// A kept surface leaves nothing for most options to do.
-std::string combination_defect(const Options& given) {
-  if (given.surface != SurfaceChoice::keep) {
-    return given.strict ? "strict needs surface keep" : "";
-  }
+// The name of an option that is not as by default, and does nothing with a kept surface; or none.
+std::string_view useless_if_kept(const Options& given) {
   const std::vector<options::Value> values = options::values_of(given),
                                     usual = options::values_of(Options());
   for (std::size_t n = 0; n < values.size(); ++n) {
     const options::Text& option = values[n].text;
-    if (!option.with_kept_surface && values[n].value != usual[n].value) {
-      return std::string(option.name) + " does nothing with surface keep";
-    }
+    if (!option.with_kept_surface && values[n].value != usual[n].value) return option.name;
   }
   return {};
+}
+
+std::string combination_defect(const Options& given) {
+  if (given.surface != SurfaceChoice::keep) {
+    return given.strict ? "strict needs surface keep" : "";
+  }
+  const std::string_view useless = useless_if_kept(given);
+  return useless.empty() ? "" : std::string(useless) + " does nothing with surface keep";
 }
 
 template <class JobOptions>
@@ -73,6 +76,12 @@ std::string combination_defect(const JobOptions& /*given*/) {
 }
 
 }  // namespace
+
+SurfaceChoice surface_choice(const Options& given) {
+  const bool may_keep = useless_if_kept(given).empty() && !given.want_chamfered;
+  return given.surface == SurfaceChoice::automatic && !may_keep ? SurfaceChoice::split
+                                                                : given.surface;
+}
 
 template <class JobOptions>
 std::string options_defect(const JobOptions& given) {
@@ -105,6 +114,7 @@ void choose_all_of_paper(JobOptions& chosen) {
 
 Options paper_options() {
   Options paper;
+  paper.surface = SurfaceChoice::split;
   paper.acute = paper.corner = 90;
   paper.gabriel = true;
   paper.improve = false;

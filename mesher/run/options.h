@@ -11,4 +11,7 @@ namespace delmesher::run {
 template <class JobOptions>
 std::string options_defect(const JobOptions& options);
 
+// What SurfaceChoice::automatic is with these options; others as they are.
+SurfaceChoice surface_choice(const Options& options);
+
 }  // namespace delmesher::run

@@ -207,7 +207,7 @@ void set_defaults(Task task, bool paper, Promise& p) {
   p = {};
   p.task = task;
   if (task == Task::cdt) p.region = Region::hull;
-  p.improve = task == Task::mesh && !paper;
+  p.may_keep = p.improve = task == Task::mesh && !paper;
   if (task != Task::mesh || paper) p.planar = 0;
   if (task == Task::plane) p.delta = 20.7;
   if (!paper) return;
@@ -308,10 +308,15 @@ class PromiseReader {
       case Takes::sizes:
         return read_size_field(*value_, p.size_field);
       case Takes::word:
+        if (option.target == decltype(option.target)(&Promise::keep)) {
+          p.may_keep = *value_ == "auto";
+          if (p.may_keep) return {};
+        }
         put(option, *value_ == option.words[1], p);
         if (*value_ == option.words[0] || *value_ == option.words[1]) return {};
-        return name + " is " + option.words[0] + " or " + option.words[1] + ", not \"" + *value_ +
-               "\"";
+        return name + " is " + option.words[0] + " or " + option.words[1] +
+               (option.target == decltype(option.target)(&Promise::keep) ? " or auto" : "") +
+               ", not \"" + *value_ + "\"";
       case Takes::number:
       case Takes::length:
         return take_number(option, p);
@@ -467,12 +472,13 @@ class PromiseCheck {
     }
   }
 
-  // tau, or for a budget the first of tau, 2 tau, 4 tau ... (from 1e-5 if that is more) that fits.
+  // tau, or 1e-9 where the surface might have been kept, or for a budget the first of tau, 2 tau, 4
+  // tau ... (from 1e-5 if that is more) that fits.
   void check_tolerance() {
-    constexpr double kLeast = 1e-5, kLargest = 0.1, kSlack = 1e-9;
+    constexpr double kLeast = 1e-5, kLargest = 0.1, kFinest = 1e-9, kSlack = 1e-9;
     const double recorded = diagonal_ > 0 ? record_.parameters.tolerance / diagonal_ : 0;
     const auto is = [&](double tau) { return std::fabs(recorded - tau) <= kSlack * tau; };
-    bool kept = is(promise_.tau);
+    bool kept = is(promise_.tau) || (promise_.may_keep && is(kFinest));
     if (!kept && promise_.budget > 0) {
       double tau = std::max(2 * promise_.tau, kLeast);
       while (!is(tau) && tau <= kLargest) tau *= 2;
@@ -509,6 +515,23 @@ class PromiseCheck {
 };
 
 }  // namespace
+
+void Promise::settle(const ExactRecord& record) {
+  if (!may_keep) return;
+  Promise usual;
+  set_defaults(Task::mesh, false, usual);
+  const auto same = [&](auto... members) { return ((this->*members == usual.*members) && ...); };
+  may_keep =
+      same(&Promise::delta, &Promise::tau, &Promise::planar, &Promise::acute, &Promise::corner,
+           &Promise::chamfer_radius, &Promise::budget) &&
+      same(&Promise::gabriel, &Promise::approximate, &Promise::improve, &Promise::link,
+           &Promise::bridges, &Promise::steiner_point, &Promise::kept_points, &Promise::enrichment,
+           &Promise::filter_pairs, &Promise::filter_chamfered, &Promise::no_guard) &&
+      region == usual.region;
+  if (!may_keep || !record.refined.empty() || !record.segments.empty()) return;
+  keep = true;
+  set_kept(*this);
+}
 
 double Promise::most_planar() const {
   return planar == kPlanarAuto ? kMostAutomatic : planar;
@@ -571,6 +594,7 @@ Promise promise_of(const delmesher::Options& options) {
   p.budget = static_cast<double>(options.budget);
   p.max_vertices = static_cast<double>(options.max_vertices);
   p.strict = options.strict;
+  p.may_keep = options.surface == delmesher::SurfaceChoice::automatic;
   p.keep = options.surface == delmesher::SurfaceChoice::keep;
   if (p.keep) set_kept(p);
   return p;

@@ -37,6 +37,7 @@ struct Promise {
   // The surface was to be kept. Then the task is cdt: a tetrahedrization of the surface, which
   // local operations have changed.
   bool keep = false;
+  bool may_keep = false;      // or split: the record shows which
   bool strict = false;        // without an exception
   bool names = false;         // sets are called by names of another file
   bool second_order = false;  // ten-node tetrahedra, in formats that have them
@@ -58,6 +59,10 @@ struct Promise {
   // The options given, in a text, that a file without a record does not show to be kept.
   std::vector<std::string> of_record = {};
   double max_vertices = 0;  // 0: no limit
+
+  // If the surface may be kept, and the record is of no refined mesh, then it was to be kept. With
+  // an option that only the refinement uses it may not be.
+  void settle(const delmesher::ExactRecord& record);
 
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
   // fraction of the diagonal: as stated, within what was asked for. If nothing is stated, `auto` is

@@ -12,6 +12,7 @@ using delmesher::Options;
 
 Options honest_options() {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.want_exact = true;
   options.gabriel = true;
   options.improve = false;

@@ -176,7 +176,7 @@ auto members(const Promise& p) {
   return std::tuple(
       std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel, p.approximate, p.improve,
                  p.region, p.chamfer_radius, p.max_edge, p.size_field.size(), p.size_growth,
-                 p.budget, p.max_vertices, p.keep, p.strict),
+                 p.budget, p.max_vertices, p.keep, p.may_keep, p.strict),
       std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment, p.filter_pairs,
                  p.filter_chamfered, p.no_guard));
 }

@@ -36,6 +36,7 @@ Told run_with(const Surface& surface, Options options) {
 
 Told run_of(const Surface& surface, double planar) {
   Options options;
+  options.surface = delmesher::SurfaceChoice::split;
   options.planar = planar;
   return run_with(surface, options);
 }
