@@ -7,6 +7,7 @@
 #include "oracles/improvement/local_operations.h"
 #include "oracles/mesh/delaunay.h"
 #include "oracles/mesh/hull.h"
+#include "oracles/mesh/measures.h"
 #include "oracles/plan.h"
 #include "oracles/record/same_mesh.h"
 #include "oracles/surface/stand_in.h"

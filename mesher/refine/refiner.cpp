@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mesher/base/check.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::refine {
 
