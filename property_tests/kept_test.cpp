@@ -160,5 +160,90 @@ TEST(KeptSurface, SaysWhatIsSplit) {
   EXPECT_GT(report.find("kept")->figure(oracles::kSplitTriangles), 0.0);
 }
 
+// --- SurfaceChoice::automatic
+
+// A plate whose thickness alone would take tens of thousands of tetrahedra.
+Surface plate() {
+  Surface surface = samples::to_surface(samples::cube().input);
+  for (auto& p : surface.vertices) p[2] *= 0.01;
+  return surface;
+}
+
+Options automatic() {
+  Options options;
+  options.want_exact = true;
+  return options;
+}
+
+bool is_kept(const Result& result) {
+  return result.statistics.ladder[delmesher::Rung::keep_surface] > 0;
+}
+
+TEST(AutomaticSurface, IsSplitWhereThatTakesFewTetrahedra) {
+  const Surface surface = samples::to_surface(samples::cube().input);
+  const Result result = delmesher::tetrahedralize(surface, automatic());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_FALSE(is_kept(result));
+  EXPECT_EQ(result.statistics.tau, 1e-9);
+  VerifyReport report;
+  EXPECT_EQ(
+      oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh), &result.exact,
+                      {.stage = oracles::Stage::both, .promised = oracles::promise_of(automatic())},
+                      report),
+      "");
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+  EXPECT_NE(report.find("refined-angles"), nullptr);
+}
+
+TEST(AutomaticSurface, IsKeptWhereItWouldTakeManyToSplitIt) {
+  const Result result = delmesher::tetrahedralize(plate(), automatic());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(is_kept(result));
+  // Half the volume over the cube of the thickness, at least.
+  EXPECT_GT(result.statistics.predicted_tetrahedra, 0.5 * 0.01 / 1e-6);
+  Options keep = automatic();
+  keep.surface = SurfaceChoice::keep;
+  EXPECT_EQ(result.mesh.tetrahedra, delmesher::tetrahedralize(plate(), keep).mesh.tetrahedra);
+  const VerifyReport report = verified(plate(), result, automatic());
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+  EXPECT_NE(report.find("kept"), nullptr);
+}
+
+TEST(AutomaticSurface, IsSplitForOptionsThatNeedIt) {
+  for (const auto change :
+       {+[](Options& o) { o.delta = 10; }, +[](Options& o) { o.tau = 1e-3; },
+        +[](Options& o) { o.budget = 1000000; }, +[](Options& o) { o.max_edge = 0.5; },
+        +[](Options& o) {
+          o.size_field = {{{0, 0, 0}, 10}};
+        }}) {
+    Options options = automatic();
+    change(options);
+    const Result result = delmesher::tetrahedralize(plate(), options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_FALSE(is_kept(result));
+  }
+  Options options = automatic();
+  options.max_edge = 2;  // its longest edge has root 2
+  EXPECT_TRUE(is_kept(delmesher::tetrahedralize(plate(), options)));
+}
+
+// Without its refined mesh the record of a split surface is taken for one of a kept surface. Then
+// the report says what is split.
+TEST(AutomaticSurface, IsNoExcuseForAMissingRefinement) {
+  Options options = automatic();
+  options.surface = SurfaceChoice::split;
+  options.max_edge = 0.5;
+  const Surface surface = samples::to_surface(samples::cube().input);
+  Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  delmesher::ExactRecord& record = result.exact;
+  record.refined.clear();
+  record.refined_facets.clear();
+  record.segments.clear();
+  const VerifyReport report = verified(surface, result, automatic());
+  EXPECT_FALSE(report.unproven.empty() && report.verdict == oracles::Verdict::exact)
+      << to_text(report);
+}
+
 }  // namespace
 }  // namespace tetproof
