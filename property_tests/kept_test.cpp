@@ -125,6 +125,36 @@ TEST(KeptSurface, HasShorterEdgesInsideIfAskedFor) {
   EXPECT_GT(fine.mesh.tetrahedra.size(), 3 * coarse.mesh.tetrahedra.size());
 }
 
+// A bound where edges of the surface are within it.
+TEST(KeptSurface, HasNoLongerEdgeThanAllowed) {
+  const Surface surface = ball(8);
+  double longest = 0;
+  const auto square = [](const auto& a, const auto& b) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sum;
+  };
+  for (const auto& t : surface.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      longest = std::max(longest, square(surface.vertices[t[i]], surface.vertices[t[(i + 1) % 3]]));
+    }
+  }
+  for (const double part : {1.0, 1.2, 1.5}) {
+    Options options = keeping();
+    options.max_edge = part * std::sqrt(longest);
+    expect_kept(surface, options);
+    const Result result = delmesher::tetrahedralize(surface, options);
+    for (const auto& t : result.mesh.tetrahedra) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          EXPECT_LE(square(result.mesh.vertices[t[i]], result.mesh.vertices[t[j]]),
+                    options.max_edge * options.max_edge * (1 + 1e-12));
+        }
+      }
+    }
+  }
+}
+
 TEST(KeptSurface, TakesNoOptionThatDoesNothing) {
   const auto refused = [](auto change) {
     Options options = keeping();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <span>
@@ -255,12 +256,27 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
     }
   }
   base::sort_unique(edges);
+  // A surface that is kept has the edges that were given, which are told apart.
+  std::vector<std::array<std::uint32_t, 2>> given, rest;
+  if (options.surface == SurfaceChoice::keep) {
+    for (const auto& face : mesh.boundary) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t v = face[i], w = face[(i + 1) % 3];
+        given.push_back({std::min(v, w), std::max(v, w)});
+      }
+    }
+  }
+  base::sort_unique(given);
+  std::set_difference(edges.begin(), edges.end(), given.begin(), given.end(),
+                      std::back_inserter(rest));
   std::vector<std::string> warnings;
-  const auto warn = [&](const std::string& option, const auto& is_too_long) {
+  const auto warn_of = [&](const std::vector<std::array<std::uint32_t, 2>>& some,
+                           const std::string& where, const std::string& option,
+                           const auto& is_too_long) {
     std::uint64_t count = 0;
     double longest = 0;
     Vec3 at{};
-    for (const auto& [v, w] : edges) {
+    for (const auto& [v, w] : some) {
       const Vec3 &a = mesh.vertices[v], &b = mesh.vertices[w];
       if (!is_too_long(a, b)) continue;
       ++count;
@@ -272,9 +288,13 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
     if (count == 0) return;
     char length[40];
     std::snprintf(length, sizeof length, "%.6g", longest);
-    warnings.push_back(std::to_string(count) + (count == 1 ? " edge is" : " edges are") +
-                       " longer than " + option + " allows, the longest, " + length + ", at " +
-                       place(at));
+    warnings.push_back(std::to_string(count) + (count == 1 ? " edge" : " edges") + where +
+                       (count == 1 ? " is" : " are") + " longer than " + option +
+                       " allows, the longest, " + length + ", at " + place(at));
+  };
+  const auto warn = [&](const std::string& option, const auto& is_too_long) {
+    warn_of(given, " of the surface as given", option, is_too_long);
+    warn_of(rest, "", option, is_too_long);
   };
   if (options.max_edge > 0) {
     const double most = options.max_edge * (1 + 1e-9);

@@ -11,6 +11,7 @@
 #include "mesher/improve/filling.h"
 #include "mesher/improve/insertion.h"
 #include "mesher/improve/relocation.h"
+#include "mesher/improve/shortening.h"
 #include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
 #include "mesher/tetmesh/numbering.h"
@@ -63,7 +64,10 @@ class Improvement {
     repair();
     if (options_.unfinished) return;
     mend();
-    if (options_.keep_surface) clear_rest();
+    if (options_.keep_surface) {
+      clear_rest();
+      shorten();
+    }
   }
 
   std::uint64_t spared() const { return spared_; }
@@ -287,6 +291,14 @@ class Improvement {
       coarsen();
       mend();
     }
+  }
+
+  // Edges that are still too long were there before the filling. What replaces them is repaired.
+  void shorten() {
+    measure_by(Measure::shape);
+    if (Shortening(state_, control_).run() == 0) return;
+    repair(kNotGood);
+    mend();
   }
 
   bool is_to_be_tried(TetId t, float limit) const {
