@@ -335,7 +335,7 @@ std::vector<std::string> limits_texts(const Statistics& s) {
         "slivers, or angles above the guaranteed ones, were given up at four times the points");
   }
   if (s.ladder[Rung::keep_surface] > 0) {
-    texts.push_back("the surface is kept, without a bound on angles: with one, about " +
+    texts.push_back("the surface is kept, without a bound on angles: with one, more than " +
                     number_short(s.predicted_tetrahedra) +
                     " tetrahedra are predicted (--surface split)");
   }

@@ -9,7 +9,9 @@ namespace delmesher::policies {
 namespace {
 
 refine::PredictionOptions prediction_options(const Session& session) {
-  return {session.options.region, session.options.max_edge, &session.sizes};
+  return {.region = session.options.region,
+          .max_edge = session.options.max_edge,
+          .sizes = &session.sizes};
 }
 
 // With the surface kept: on the 459 valid models of the collection 1.7 per triangle at the median;
@@ -26,8 +28,10 @@ double kept_tetrahedra(const Session& session) {
   return tetrahedra;
 }
 
-double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, const Session& session) {
-  const refine::PredictionOptions options = prediction_options(session);
+double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, double enough,
+                            const Session& session) {
+  refine::PredictionOptions options = prediction_options(session);
+  if (enough > 0) options.enough = enough;
   // Every triangle that the filter drops comes back in the final step, with at least one and a half
   // tetrahedra.
   return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +
@@ -36,23 +40,23 @@ double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, const Sess
                                     session.control);
 }
 
-std::string over_budget(double predicted, double tau, double budget) {
-  return "about " + std::to_string(static_cast<std::uint64_t>(predicted)) +
-         " tetrahedra are predicted even with tau " + std::to_string(tau) +
-         ", more than the budget of " + std::to_string(static_cast<std::uint64_t>(budget));
+std::string over_budget(double tau, double budget) {
+  return "more tetrahedra are predicted than the budget of " +
+         std::to_string(static_cast<std::uint64_t>(budget)) + ", even with tau " +
+         std::to_string(tau);
 }
 
 }  // namespace
 
 void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& session,
                      Recorder& recorder) {
-  predicted_ = predicted_tetrahedra(surface, session);
-  recorder.predicted(predicted_);
   if (is_automatic_ && budget_ == 0) {
     // Of that predicted, two thirds are left after the improvement, at the median.
     constexpr double kTimes = 4, kLeft = 0.67, kSmall = 500;
     budget_ = kTimes / kLeft * kept_tetrahedra(session) + kSmall;
   }
+  predicted_ = predicted_tetrahedra(surface, budget_, session);
+  recorder.predicted(predicted_);
 }
 
 bool Budget::can_raise_tau(const Session& session) const {
@@ -67,7 +71,7 @@ void Budget::raise_tau(const Session& session) {
 
 void Budget::settle(Session& session) const {
   if (!is_kept()) {
-    throw Stopped{{StatusCode::limit_reached, over_budget(predicted_, tau_, budget_), Limit::size}};
+    throw Stopped{{StatusCode::limit_reached, over_budget(tau_, budget_), Limit::size}};
   }
   session.control.predict(predicted_);
   if (is_automatic_) {

@@ -129,7 +129,7 @@ class Predictor {
     }
     if (options_.region == Region::hull) root.side *= 2;  // the outer box (section 5.1)
     visit(root, Where::unknown);
-    return sum_ * kPerUnit[options_.region == Region::hull ? 1 : 0];
+    return predicted();
   }
 
  private:
@@ -325,7 +325,10 @@ class Predictor {
 
   std::uint32_t next_random() { return (random_ = random_ * 1664525U + 1013904223U) >> 16U; }
 
+  double predicted() const { return sum_ * kPerUnit[options_.region == Region::hull ? 1 : 0]; }
+
   void visit(const Cell& cell, Where where) {
+    if (predicted() > options_.enough) return;
     control_.poll();
     ++cells_;
     if (cell.depth < kMinDepth) return divide(cell, cell.parent, where);

@@ -5,6 +5,7 @@
 // fixed multiple.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PredictionOptions {
   Region region = Region::interior;
   double max_edge = 0;               // of the mesh to come; 0: no bound
   const SizeField* sizes = nullptr;  // the same, from place to place
+  double enough = HUGE_VAL;          // a larger prediction may be any number above this
 };
 
 // Tetrahedra of the mesh that refining the complex (without the outer box) will lead to: those
