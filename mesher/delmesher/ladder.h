@@ -24,15 +24,13 @@ enum class Rung : std::uint8_t {
   untangle,
   thin_out,
   input_alone,
-  all_repairs,
-  // The run: with --surface auto, the mesh is not too heavy. No tetrahedron is inverted or flat,
-  // where
-  // vertices were moved to make facets planar; and with --planar 0 the mesh has gone back.
+  // The run: with --surface auto, the mesh is not too heavy. No tetrahedron is inverted or flat:
+  // where vertices were moved to make facets planar, and where the mesh has gone back.
   keep_surface,
   back_to_given,
   no_planes
 };
-inline constexpr std::size_t kRungCount = 13;
+inline constexpr std::size_t kRungCount = 12;
 
 // Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
 struct RungRow {
@@ -64,8 +62,6 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
      "the repairs"},
     {"input_alone", 1, "the surface is small", "only the vertices of the input", "the surface",
      "a constrained tetrahedrization, the repairs"},
-    {"all_repairs", 1, "more than a few defects are left", "repairs without a limit", "the mesh",
-     "milliseconds for each defect"},
     {"keep_surface", 1, "--surface auto", "as with --surface keep", "nothing",
      "a tetrahedron or two per triangle"},
     {"back_to_given", 1, "the mesh may go back", "as with planar facets only while it is refined",

@@ -87,8 +87,6 @@ constexpr Step<Rounding> kRounding[] = {
     {Rung::input_alone,
      [](const Rounding& r) { return defects(r.best).first > 0 && may_be_plain(r.session); },
      [](Rounding& r) { r.try_input_alone(); }},
-    {Rung::all_repairs, [](const Rounding& r) { return defects(r.best).first > kFew; },
-     [](Rounding& r) { r.try_instead(r.mesh, r.thinned, {}); }},
 };
 
 }  // namespace
