@@ -52,7 +52,7 @@ void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& se
                      Recorder& recorder) {
   if (is_automatic_ && budget_ == 0) {
     // Of that predicted, two thirds are left after the improvement, at the median.
-    constexpr double kTimes = 4, kLeft = 0.67, kSmall = 500;
+    constexpr double kTimes = 4, kLeft = 0.67, kSmall = 300;
     budget_ = kTimes / kLeft * kept_tetrahedra(session) + kSmall;
   }
   predicted_ = predicted_tetrahedra(surface, budget_, session);
