@@ -112,6 +112,8 @@ TEST_F(Program, AnglesThatTheInputForcesAreSaid) {
   write("in.off",
         "OFF\n6 8 0\n0 0 0\n1 0 0\n1 0.0174550649 0\n0 0 1\n1 0 1\n1 0.0174550649 1\n"
         "3 0 2 1\n3 3 4 5\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n");
+  EXPECT_EQ(run("in.off -o mesh.mesh -v"), 0);
+  EXPECT_NE(text("err.txt").find("in.off: the surface is kept; bounded angles"), std::string::npos);
   EXPECT_EQ(run("in.off -o mesh.mesh --surface split"), 0);
   const std::string said = text("err.txt");
   EXPECT_NE(said.find("delmesher: in.off: warning: the smallest face angle is "),

@@ -307,6 +307,12 @@ std::string planar_text(const std::string& file, const Statistics& s, bool as_gi
          " of it from their planes (--planar 0 keeps all facets)";
 }
 
+std::string kept_text(const std::string& file, const Statistics& s) {
+  return file + ": the surface is kept; bounded angles (--surface split) would take more than " +
+         std::to_string(static_cast<std::uint64_t>(s.predicted_tetrahedra)) +
+         " tetrahedra, as predicted";
+}
+
 std::vector<std::string> limits_texts(const Statistics& s) {
   std::vector<std::string> texts;
   const std::uint64_t guard_stops = s.ladder[Rung::empty_balls] + s.ladder[Rung::chamfers_nearby] +
@@ -333,11 +339,6 @@ std::vector<std::string> limits_texts(const Statistics& s) {
   if (s.refinement_capped) {
     texts.emplace_back(
         "slivers, or angles above the guaranteed ones, were given up at four times the points");
-  }
-  if (s.ladder[Rung::keep_surface] > 0) {
-    texts.push_back("the surface is kept, without a bound on angles: with one, more than " +
-                    number_short(s.predicted_tetrahedra) +
-                    " tetrahedra are predicted (--surface split)");
   }
   if (s.left_on_surface > 0) {
     texts.push_back("the surface is kept but for " + std::to_string(s.left_on_surface) +

@@ -31,6 +31,9 @@ std::string improve_stats_json(const Command& command, const Result& result, con
 std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts);
 
+// The line about a surface that is kept because bounded angles would be heavy.
+std::string kept_text(const std::string& file, const Statistics& s);
+
 // One line on the triangles that were merged because they are planar within the bound: to the end
 // or, in a mesh of the surface as given, while they were refined.
 std::string planar_text(const std::string& file, const Statistics& statistics, bool as_given);

@@ -145,6 +145,7 @@ int Runner::mesh() {
     const std::string text = planar_text(command_.input, s, as_given);
     far ? say(text) : remark(text);
   }
+  if (s.ladder[Rung::keep_surface] > 0) remark(kept_text(command_.input, s));
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
   if (result.status.ok() && options != nullptr) {
