@@ -54,6 +54,7 @@ class Farthest {
   // The longest side, where it leaves what is near the triangle `near`, if it does: one part may be
   // done then. Else in the middle.
   void split(const Corners& piece, Index near, std::vector<Corners>& pieces) const {
+    if (cut(piece, near, pieces)) return;
     constexpr double kLeast = 0.02;  // of the side: else pieces might become no smaller
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i) {
@@ -78,6 +79,43 @@ class Farthest {
     const Position cut = between(a, b, at);
     pieces.push_back({a, cut, c});
     pieces.push_back({cut, b, c});
+  }
+
+  // A piece in the plane of the triangle is cut along the line of a side that it crosses. So where
+  // two surfaces are in one place there are few pieces, however small the precision is.
+  bool cut(const Corners& piece, Index near, std::vector<Corners>& pieces) const {
+    const Corners triangle = corners_of(to_, near);
+    const Position normal = cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
+    const double reach = bound() / 2;
+    const auto heights = [&](const Position& direction, const Position& from) {
+      std::array<double, 3> height{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        height[i] = dot(direction, minus(piece[i], from)) / length(direction);
+      }
+      return height;
+    };
+    for (const double height : heights(normal, triangle[0])) {
+      if (!(std::fabs(height) <= reach)) return false;
+    }
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Position& from = triangle[side];
+      const std::array<double, 3> in =
+          heights(cross(normal, minus(triangle[(side + 1) % 3], from)), from);
+      if (!(std::ranges::min(in) < -reach && std::ranges::max(in) > reach)) continue;
+      std::size_t lone = 0;  // the corner that is alone on its side of the line
+      while ((in[lone] < 0) == (in[(lone + 1) % 3] < 0) ||
+             (in[lone] < 0) == (in[(lone + 2) % 3] < 0)) {
+        ++lone;
+      }
+      const std::size_t next = (lone + 1) % 3, last = (lone + 2) % 3;
+      const Position p = between(piece[lone], piece[next], in[lone] / (in[lone] - in[next])),
+                     q = between(piece[lone], piece[last], in[lone] / (in[lone] - in[last]));
+      pieces.push_back({piece[lone], p, q});
+      pieces.push_back({p, piece[next], piece[last]});
+      pieces.push_back({p, piece[last], q});
+      return true;
+    }
+    return false;
   }
 
   // A bound of the piece's distance from the surface, with the triangle nearest to its centre.

@@ -53,6 +53,20 @@ TEST(Envelope, IsOfASurfaceWithTriangles) {
   EXPECT_EQ(verify_envelope({}, cube_mesh(), kShare, {}, report), "the surface has no triangles");
 }
 
+// Squares that are cut along the other diagonal. By halves it would take 1e12 pieces.
+TEST(Envelope, IsQuickToSayThatTwoSurfacesAreInOnePlace) {
+  Polyhedron other = cube();
+  for (std::size_t t = 0; t < other.triangles.size(); t += 2) {
+    const auto [a, b, c] = other.triangles[t];
+    const Index d = other.triangles[t + 1][2];
+    other.triangles[t] = {a, b, d};
+    other.triangles[t + 1] = {b, c, d};
+  }
+  EXPECT_LE(farthest(other, cube(), 1e-12, 0), 2e-12);
+  other.vertices[0] = {-0.5, 0, 0};
+  EXPECT_NEAR(farthest(other, cube(), 1e-12, 0), 0.5, 1e-11);
+}
+
 TEST(Envelope, ShellsMayBeInsideOut) {
   Polyhedron two = cube();
   MeshFile mesh = cube_mesh();
