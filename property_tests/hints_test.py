@@ -53,6 +53,7 @@ def cases():
     points, one = cube(), list(CUBE)
     yield "cracks", "vertices nearly coincide", apart(points, one, 1e-7)
     yield "soup", "vertices coincide", apart(points, one)
+    yield "flat", "1 flat sheet", ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
     yield "hole", "1 hole", (points, one[1:])
     yield "T-junction", "1 T-junction", (points + [(1, 0.5, 0.5)], one[:10] + [(1, 3, 8), (3, 7, 8), (1, 7, 5)])
     yield "twice", "mends triangles without area, duplicates and orientation", (points, one + one[:1])
@@ -104,6 +105,10 @@ class Hints(unittest.TestCase):
                 hints = [line for line in said.stdout.split("\n") if line.startswith("  hint: ")]
                 hint = [line for line in hints if words in line]
                 self.assertEqual(len(hint), 1, said.stdout)
+                if "flat sheet" in words:
+                    self.assertNotIn("--fill", said.stdout)
+                    self.assertEqual(run(DELMESHER, "plane", given, "-o", path(name + ".msh")).returncode, 0)
+                    continue
                 commands = re.findall("`([^`]*)`", hint[0])
                 if not commands:
                     self.assertIn("leave walls out", hint[0])

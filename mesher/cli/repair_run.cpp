@@ -69,6 +69,10 @@ int RepairRunner::conclude_with(const SurfaceReport& report) {
   for (const surface::Contact& contact : surface::contacts(surface_, report)) {
     left += ": " + contact.what + ": " + contact.advice;
   }
+  // What is not for this command.
+  for (const std::string& hint : surface_hints(surface_, report)) {
+    if (hint.find("T-junction") != std::string::npos) left += "; " + hint;
+  }
   return fail(kFailed, command_.outputs.front() + ": " + left + (fills ? ", see --fill" : ""));
 }
 

@@ -61,7 +61,32 @@ std::string list_of(const Surface& surface, const std::vector<const Hole*>& hole
   return line;
 }
 
-std::vector<std::string> hints_of_holes(const Surface& surface) {
+// The components, if each of them is in one plane; else 0.
+std::uint64_t flat_sheets(const Surface& surface) {
+  DisjointSets components(surface.vertices.size());
+  for (const auto& [a, b, c] : surface.triangles) {
+    components.join(a, b);
+    components.join(b, c);
+  }
+  std::map<std::uint32_t, std::array<std::uint32_t, 3>> first;  // triangle
+  const auto at = [&](std::uint32_t v) { return surface.vertices[v]; };
+  for (const auto& corners : surface.triangles) {
+    const auto& [a, b, c] =
+        first.try_emplace(components.smallest(corners[0]), corners).first->second;
+    for (const std::uint32_t v : corners) {
+      if (orient3d_sign(at(a), at(b), at(c), at(v)) != 0) return 0;
+    }
+  }
+  return first.size();
+}
+
+// `apart`: welding closes nothing.
+std::vector<std::string> hints_of_holes(const Surface& surface, bool apart) {
+  if (const std::uint64_t sheets = apart ? flat_sheets(surface) : 0; sheets > 0) {
+    return {counted(sheets, "flat sheet") +
+            (sheets == 1 ? ", which encloses nothing" : ", which enclose nothing") +
+            ": there is no solid; OFF and OBJ with z = 0 are for `delmesher plane`"};
+  }
   const Holes all = holes_of(surface);
   std::vector<const Hole*> holes, slits;
   for (const Hole& hole : all.holes) {
@@ -247,7 +272,9 @@ std::vector<std::string> hints_of(const Surface& surface, const SurfaceReport& r
                       "` would close " + std::to_string(hint.closed) + " of " +
                       std::to_string(count_of(report, Kind::open_edge)) + " open edges");
     }
-    for (std::string& line : hints_of_holes(surface)) lines.push_back(std::move(line));
+    for (std::string& line : hints_of_holes(surface, hint.closed == 0)) {
+      lines.push_back(std::move(line));
+    }
   }
   const std::vector<Contact> touching = contacts(surface, report);
   const bool all_opposite =

@@ -27,6 +27,9 @@ Polyhedron read_off(const std::string& path, std::string_view text) {
   const std::size_t digits = std::min(keyword.size(), keyword.find("OFF") + 3);
   if (!keyword.substr(0, digits).ends_with("OFF")) reader.fail("the file does not begin with OFF");
   const std::string number = keyword.substr(digits);
+  if (keyword.substr(0, digits).find_first_of("0123456789n") != std::string::npos) {
+    reader.fail("vertices of another dimension");
+  }
   const std::uint64_t vertices =
       number.empty()
           ? reader.count()
@@ -66,7 +69,7 @@ std::string rest_of_line(TextReader& reader) {
   return rest;
 }
 
-Polyhedron read_obj(const std::string& path, std::string_view text) {
+Polyhedron read_obj(const std::string& path, std::string_view text, bool planar) {
   TextReader reader(path, text);
   Polyhedron surface;
   Index polygons = 0;
@@ -79,7 +82,10 @@ Polyhedron read_obj(const std::string& path, std::string_view text) {
       if (keyword == kNamings[i]) namings[i].name = rest_of_line(reader);
     }
     if (keyword == "v") {
-      const double x = reader.number(), y = reader.number(), z = reader.number();
+      const double x = reader.number(), y = reader.number();
+      const std::string third(reader.word_in_line());
+      if (third.empty() && !planar) reader.fail("a vertex of two coordinates");
+      const double z = third.empty() ? 0 : TextReader(path, third).number();
       surface.vertices.push_back({x, y, z});
     } else if (keyword == "f") {
       std::vector<Index> corners;
@@ -92,6 +98,7 @@ Polyhedron read_obj(const std::string& path, std::string_view text) {
         if (index < 0 || index >= count) reader.fail("a face refers to no vertex");
         corners.push_back(static_cast<Index>(index));
       }
+      if (corners.size() < 3) reader.fail("a face of fewer than three corners");
       add_polygon(surface, corners, polygons++);
       for (NamedLabels& naming : namings) naming.use(surface.triangles.size());
     }
@@ -469,7 +476,7 @@ bool is_binary_stl(std::string_view text) {
 enum class Seams : std::uint8_t { none, vertices, orientation };
 
 // Faces of more than three corners are fans.
-Polyhedron read_any(const std::string& file, Seams& seams) {
+Polyhedron read_any(const std::string& file, bool planar, Seams& seams) {
   const std::string text = read_whole_file(file), path = without_gz(file);
   const std::string_view start = std::string_view(text).substr(0, 200);
   std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
@@ -480,21 +487,47 @@ Polyhedron read_any(const std::string& file, Seams& seams) {
   const bool ply = start.starts_with("ply"), tetgen = extension == "smesh" || extension == "poly";
   seams = ply || extension == "obj" ? Seams::vertices : tetgen ? Seams::orientation : Seams::none;
   if (ply) return PlyReader(path, text).read();
-  if (extension == "obj") return read_obj(path, text);
-  if (tetgen) {
-    return read_tetgen(path, text, extension == "poly");
-  }
+  if (extension == "obj") return read_obj(path, in_obj_lines(text), planar);
+  if (tetgen) return read_tetgen(path, in_plain_lines(text, '#'), extension == "poly");
   if (extension == "stl") {
-    return is_binary_stl(text) ? read_binary_stl(path, text) : read_text_stl(path, text);
+    return is_binary_stl(text) ? read_binary_stl(path, text)
+                               : read_text_stl(path, in_plain_lines(text, '\0'));
   }
-  return read_off(path, text);
+  return read_off(path, in_plain_lines(text, '#'));
 }
 
 }  // namespace
 
-Polyhedron read_surface(const std::string& path) {
+std::string in_plain_lines(std::string text, char comment) {
+  bool in_comment = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    char& c = text[i];
+    if (c == '\r') c = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
+    if (c == '\v' || c == '\f') c = ' ';
+    in_comment = c != '\n' && (in_comment || (comment != '\0' && c == comment));
+    if (in_comment) c = ' ';
+  }
+  return text;
+}
+
+std::string in_obj_lines(std::string text) {
+  text = in_plain_lines(std::move(text), '\0');
+  bool in_comment = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    in_comment = text[i] != '\n' && (in_comment || text[i] == '#');
+    if (text[i] != '\\' || in_comment) continue;
+    std::size_t end = std::min(text.size(), text.find_first_not_of(" \t", i + 1));
+    if (end > i + 1 && end < text.size() && text[end] == '#') end = text.find('\n', end);
+    if (end < text.size() && text[end] != '\n') continue;
+    end = std::min(text.size(), end + (end < text.size() ? 1 : 0));
+    text.replace(i, end - i, end - i, ' ');
+  }
+  return text;
+}
+
+Polyhedron read_surface(const std::string& path, bool planar) {
   Seams seams = Seams::none;
-  Polyhedron surface = read_any(path, seams);
+  Polyhedron surface = read_any(path, planar, seams);
   cut_polygons(surface);
   if (seams == Seams::orientation) agree(surface);
   if (seams == Seams::vertices) close_seams(surface);

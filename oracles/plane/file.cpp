@@ -332,7 +332,7 @@ std::vector<Edge> read_lines(const std::string& path, std::string_view text,
 }
 
 PlanarGraph read_faces(const std::string& path, bool obj) {
-  const Polyhedron surface = read_surface(path);
+  const Polyhedron surface = read_surface(path, true);
   PlanarGraph graph;
   graph.insideness = Insideness::nested;
   for (const auto& [x, y, z] : surface.vertices) {
@@ -355,7 +355,8 @@ PlanarGraph read_faces(const std::string& path, bool obj) {
     if (at.size() > 1 && at.front() != at.back()) divides[edge] = true;
   }
   if (obj) {
-    for (const auto& [a, b] : read_lines(path, read_whole_file(path), graph.vertices.size())) {
+    for (const auto& [a, b] :
+         read_lines(path, in_obj_lines(read_whole_file(path)), graph.vertices.size())) {
       edges.push_back({a, b});
       divides.emplace(Edge{std::min(a, b), std::max(a, b)}, !surface.triangles.empty());
     }
@@ -582,7 +583,7 @@ PlanarGraph read_plane_graph(const std::string& path) {
   if (extension == ".off" || extension == ".obj" || (word.size() < 8 && word.ends_with("OFF"))) {
     return read_faces(path, extension == ".obj");
   }
-  text = without_commas(std::move(text));
+  text = without_commas(in_plain_lines(std::move(text), '#'));
   return extension == ".poly" ? read_poly(path, text) : read_rings(path, text);
 }
 
