@@ -136,9 +136,9 @@ struct Filtering {
 };
 
 constexpr Step<Filtering> kFiltering[] = {
-    {Rung::larger_tau, [](const Filtering& f) { return f.r.budget.can_raise_tau(f.r.s); },
+    {Rung::larger_tau, [](const Filtering& f) { return f.r.budget.can_raise_tau(); },
      [](Filtering& f) {
-       f.r.budget.raise_tau(f.r.s);
+       f.r.budget.raise_tau();
        f.attempt();
      }},
 };
@@ -465,24 +465,9 @@ constexpr Step<Runs> kRuns[] = {
      [](Runs& r) { r.run_again(Planes::none); }},
 };
 
-// Has every edge of the surface the length asked for? Others have to be split.
-bool is_fine_enough(const Surface& surface, const Options& options) {
-  const double longest = options.max_edge * options.max_edge;
-  return options.size_field.empty() &&
-         (longest == 0 || std::ranges::all_of(surface.triangles, [&](const auto& t) {
-            const auto is_short = [&](int i, int j) {
-              const auto& at = surface.vertices;
-              return squared_norm(subtract(at[t[i]], at[t[j]])) <= longest;
-            };
-            return is_short(0, 1) && is_short(1, 2) && is_short(2, 0);
-          }));
-}
-
 Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
   Options options = given;
-  if (options.surface == SurfaceChoice::automatic && !is_fine_enough(surface, options)) {
-    options.surface = SurfaceChoice::split;
-  }
+  options.surface = surface_choice(given, surface);
   Runs runs{surface, frame, PlanarRuns(options), {}};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
@@ -499,9 +484,7 @@ Result run_plain_cdt(const Surface& surface, const Options& options, const Local
 
 }  // namespace
 
-Result tetrahedralize(const Surface& surface, const Options& given) {
-  Options options = given;
-  options.surface = surface_choice(given);
+Result tetrahedralize(const Surface& surface, const Options& options) {
   return in_ordinary_units(surface, options,
                            options.surface == SurfaceChoice::keep ? run_kept : run_mesh);
 }

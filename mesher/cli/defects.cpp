@@ -135,6 +135,25 @@ std::string coordinates(const std::array<double, 3>& p) {
   return text;
 }
 
+// To the points; `kind_name(k)`: of number k + 1.
+template <class KindName, class Point>
+std::string begin_vtu(std::size_t kinds, const KindName& kind_name, std::size_t points,
+                      const Point& point, std::size_t cells) {
+  std::string out = "<?xml version=\"1.0\"?>\n<!-- delmesher, defect: 0 none";
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    out += ", " + std::to_string(kind + 1) + " " + kind_name(kind);
+  }
+  out +=
+      " -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+      std::to_string(points) + "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n<Points>\n";
+  vtu_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", points,
+            [&](std::size_t i) { return coordinates(point(i)); });
+  return out + "</Points>\n";
+}
+
+constexpr const char* kEndOfVtu = "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+
 }  // namespace
 
 std::string coloured_ply(const Surface& surface, const SurfaceReport& report) {
@@ -164,19 +183,11 @@ std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
   // No program draws edges whose vertices are not there.
   if (count_of(report, Kind::index_out_of_range) > 0) edges.clear();
   const std::size_t triangles = kinds.size(), cells = triangles + edges.size();
-  std::string out = "<?xml version=\"1.0\"?>\n<!-- delmesher, defect: 0 none";
-  for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
-    out += ", " + std::to_string(kind + 1) + " " + defect_name(static_cast<Kind>(kind));
-  }
-  out +=
-      " -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-      std::to_string(surface.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(cells) +
-      "\">\n<Points>\n";
-  vtu_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"",
-            surface.vertices.size(),
-            [&](std::size_t i) { return coordinates(surface.vertices[i]); });
-  out += "</Points>\n<Cells>\n";
+  std::string out = begin_vtu(
+      report.defect_counts.size(),
+      [](std::size_t kind) { return defect_name(static_cast<Kind>(kind)); },
+      surface.vertices.size(), [&](std::size_t i) { return surface.vertices[i]; }, cells);
+  out += "<Cells>\n";
   vtu_array(out, "type=\"Int64\" Name=\"connectivity\"", cells, [&](std::size_t i) {
     if (i < triangles) return numbers(surface.triangles[i]);
     return numbers(edges[i - triangles].vertices);
@@ -197,7 +208,7 @@ std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
     vtu_array(out, "type=\"Int32\" Name=\"label\"", cells,
               [&](std::size_t i) { return std::to_string(i < triangles ? surface.labels[i] : 0); });
   }
-  return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return out + kEndOfVtu;
 }
 
 std::string graph_defects_vtu(const PlanarGraph& graph, const GraphReport& report) {
@@ -209,20 +220,14 @@ std::string graph_defects_vtu(const PlanarGraph& graph, const GraphReport& repor
       for (const std::uint32_t s : place) kinds[s] = static_cast<int>(kind) + 1;
     }
   }
-  std::string out = "<?xml version=\"1.0\"?>\n<!-- delmesher, defect: 0 none";
-  for (std::size_t kind = 0; kind < kGraphDefects; ++kind) {
-    out += ", " + std::to_string(kind + 1) + " " + defect_name(static_cast<GraphDefect>(kind));
-  }
-  out +=
-      " -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-      std::to_string(graph.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(n) +
-      "\">\n<Points>\n";
-  vtu_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", graph.vertices.size(),
-            [&](std::size_t i) {
-              return coordinates({graph.vertices[i][0], graph.vertices[i][1], 0});
-            });
-  out += "</Points>\n<Cells>\n";
+  std::string out = begin_vtu(
+      kGraphDefects, [](std::size_t kind) { return defect_name(static_cast<GraphDefect>(kind)); },
+      graph.vertices.size(),
+      [&](std::size_t i) {
+        return std::array<double, 3>{graph.vertices[i][0], graph.vertices[i][1], 0};
+      },
+      n);
+  out += "<Cells>\n";
   vtu_array(out, "type=\"Int64\" Name=\"connectivity\"", n,
             [&](std::size_t i) { return numbers(graph.segments[i]); });
   vtu_array(out, "type=\"Int64\" Name=\"offsets\"", n,
@@ -232,7 +237,7 @@ std::string graph_defects_vtu(const PlanarGraph& graph, const GraphReport& repor
   out += "</Cells>\n<CellData Scalars=\"defect\">\n";
   vtu_array(out, "type=\"UInt8\" Name=\"defect\"", n,
             [&](std::size_t i) { return std::to_string(kinds[i]); });
-  return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return out + kEndOfVtu;
 }
 
 DefectsFormat defects_format(const std::string& path) {

@@ -108,15 +108,9 @@ int GraphRunner::check() const {
       return fail(kUsage,
                   command_.defects_file + ": defects of a planar graph are written as .vtu");
     }
-    io::OutputSet outputs(set_temporaries);
-    outputs.make_folders();
-    io::WriteStatus status;
-    io::TextSink* sink = outputs.open(command_.defects_file, status);
-    if (sink == nullptr) return fail(kUnreadable, status.error);
-    sink->text(graph_defects_vtu(graph_, report));
-    status = commit(outputs);
-    if (!status.ok()) return fail(kUnreadable, status.error);
-    say(command_.defects_file + ": the segments, coloured by what is wrong; ParaView opens it");
+    const int written = write_defects(graph_defects_vtu(graph_, report),
+                                      "the segments, coloured by what is wrong; ParaView opens it");
+    if (written != kDone) return written;
   }
   return code == StatusCode::ok ? kDone : fail_input(kInvalid, report.status.message);
 }

@@ -29,7 +29,7 @@ class Runner : RunSteps {
   int label_by_angle();
   int check();
   int mesh();
-  int write_defects(const SurfaceReport& report) const;
+  int write_surface_defects(const SurfaceReport& report) const;
   void count_defects(Status& status) const;
   io::WriteStatus write_all(io::OutputSet& outputs, const Result& result) const;
 
@@ -76,28 +76,20 @@ int Runner::check() {
   }
   if (!command_.defects_file.empty() &&
       (code == StatusCode::ok || code == StatusCode::invalid_surface)) {
-    const int written = write_defects(report);
+    const int written = write_surface_defects(report);
     if (written != kDone) return written;
   }
   if (code == StatusCode::ok) return kDone;
   return fail_input(exit_code_of(code), report.status.message);
 }
 
-int Runner::write_defects(const SurfaceReport& report) const {
-  io::OutputSet outputs(set_temporaries);
-  outputs.make_folders();
-  io::WriteStatus status;
-  io::TextSink* sink = outputs.open(command_.defects_file, status);
-  if (sink == nullptr) return fail(kUnreadable, status.error);
+int Runner::write_surface_defects(const SurfaceReport& report) const {
   const bool vtu = defects_format(command_.defects_file) == DefectsFormat::vtu;
-  sink->text(vtu ? defects_vtu(surface_, report) : coloured_ply(surface_, report));
-  const Deferring deferring;
-  status = outputs.commit();
-  if (!status.ok()) return fail(kUnreadable, status.error);
-  say(command_.defects_file + ": the surface, " +
-      (vtu && !surface_.labels.empty() ? "with its labels, " : "") + "coloured by what is wrong; " +
-      (vtu ? "ParaView opens it" : "MeshLab and Blender open it"));
-  return kDone;
+  return write_defects(vtu ? defects_vtu(surface_, report) : coloured_ply(surface_, report),
+                       std::string("the surface, ") +
+                           (vtu && !surface_.labels.empty() ? "with its labels, " : "") +
+                           "coloured by what is wrong; " +
+                           (vtu ? "ParaView opens it" : "MeshLab and Blender open it"));
 }
 
 // Counts the defects by kind; the library stops at the first.

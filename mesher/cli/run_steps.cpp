@@ -148,6 +148,19 @@ io::WriteStatus RunSteps::put_in_place(const Outcome& outcome) {
   return status;
 }
 
+int RunSteps::write_defects(const std::string& text, const std::string& what) const {
+  io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
+  io::WriteStatus status;
+  io::TextSink* sink = outputs.open(command_.defects_file, status);
+  if (sink == nullptr) return fail(kUnreadable, status.error);
+  sink->text(text);
+  status = commit(outputs);
+  if (!status.ok()) return fail(kUnreadable, status.error);
+  say(command_.defects_file + ": " + what);
+  return kDone;
+}
+
 io::WriteStatus RunSteps::commit(io::OutputSet& outputs) {
   const Committing committing;
   io::WriteStatus status = outputs.commit();

@@ -73,6 +73,8 @@ class RunSteps {
   int finish(const Outcome& outcome);
   // Gives the files of a run their names; signals do not end it any more then.
   static io::WriteStatus commit(io::OutputSet& outputs);
+  // Writes --defects, and says what is in it and what opens it. The exit code.
+  int write_defects(const std::string& text, const std::string& what) const;
   // Warns of what the format of a file written cannot hold.
   io::WriteStatus warned(io::WriteStatus status) const {
     for (const std::string& warning : status.warnings) warn(warning);

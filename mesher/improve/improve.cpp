@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mesher/base/sort_unique.h"
 #include "mesher/base/validating.h"
 #include "mesher/improve/collapse.h"
 #include "mesher/improve/edge_removal.h"
@@ -271,8 +272,7 @@ class Improvement {
       std::ranges::copy_if(state_.mesh.tet(t), std::back_inserter(free),
                            [&](VertexId w) { return state_.mobility(w) == Mobility::free; });
     }
-    std::ranges::sort(free);
-    free.erase(std::unique(free.begin(), free.end()), free.end());
+    sort_unique(free);
     return std::ranges::count_if(
                free, [&](VertexId w) { return collapse_.run(w, state_.to_reach(0)); }) > 0;
   }
@@ -381,7 +381,6 @@ class Improvement {
   std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
-  // The clock when attempts failed, plus 1: per slot, and per vertex.
   // When tetrahedra and vertices were tried in vain: the clock plus 1; per slot and per vertex.
   struct Failed {
     std::vector<std::uint32_t> tetrahedra, smoothing, collapse;

@@ -59,14 +59,14 @@ void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& se
   recorder.predicted(predicted_);
 }
 
-bool Budget::can_raise_tau(const Session& session) const {
+bool Budget::can_raise_tau() const {
   constexpr double kLargestTau = 0.05;
-  return is_automatic_ ? tau_ < session.options.tau : tau_ <= kLargestTau;
+  return is_automatic_ ? tau_ < tau_asked_ : tau_ <= kLargestTau;
 }
 
-void Budget::raise_tau(const Session& session) {
+void Budget::raise_tau() {
   constexpr double kLeastTau = 1e-5;
-  tau_ = is_automatic_ ? session.options.tau : std::max(2 * tau_, kLeastTau);
+  tau_ = is_automatic_ ? tau_asked_ : std::max(2 * tau_, kLeastTau);
 }
 
 void Budget::settle(Session& session) const {

@@ -19,7 +19,8 @@ class Budget {
   explicit Budget(const Options& options)
       : is_automatic_(options.surface == SurfaceChoice::automatic),
         budget_(static_cast<double>(options.budget)),
-        tau_(is_automatic_ ? kFinestTau : options.tau) {}
+        tau_asked_(options.tau),
+        tau_(is_automatic_ ? kFinestTau : tau_asked_) {}
 
   // In force: a fraction of the diagonal.
   double tau() const { return tau_; }
@@ -28,8 +29,8 @@ class Budget {
                Recorder& recorder);
   bool is_kept() const { return budget_ == 0 || predicted_ <= budget_; }
   // Not beyond a twentieth of the diagonal, because whole features of the model would go.
-  bool can_raise_tau(const Session& session) const;
-  void raise_tau(const Session& session);
+  bool can_raise_tau() const;
+  void raise_tau();
   // Tells Session::control the prediction; throws Stopped, as a limit of size, if it exceeds the
   // budget. With SurfaceChoice::automatic a refinement far beyond it ends in the same way.
   void settle(Session& session) const;
@@ -37,6 +38,7 @@ class Budget {
  private:
   const bool is_automatic_;
   double budget_;  // tetrahedra; 0: none, or not known yet
+  const double tau_asked_;
   double tau_, predicted_ = 0;
 };
 

@@ -300,6 +300,11 @@ class PromiseReader {
     return take(*known, p);
   }
 
+  // Which may be `auto` besides its two words.
+  static bool is_surface(const Option& option) {
+    return option.target == decltype(option.target)(&Promise::keep);
+  }
+
   std::string take(const Option& option, Promise& p) {
     const std::string name = option.name;
     switch (option.takes) {
@@ -308,15 +313,14 @@ class PromiseReader {
       case Takes::sizes:
         return read_size_field(*value_, p.size_field);
       case Takes::word:
-        if (option.target == decltype(option.target)(&Promise::keep)) {
+        if (is_surface(option)) {
           p.may_keep = *value_ == "auto";
           if (p.may_keep) return {};
         }
         put(option, *value_ == option.words[1], p);
         if (*value_ == option.words[0] || *value_ == option.words[1]) return {};
         return name + " is " + option.words[0] + " or " + option.words[1] +
-               (option.target == decltype(option.target)(&Promise::keep) ? " or auto" : "") +
-               ", not \"" + *value_ + "\"";
+               (is_surface(option) ? " or auto" : "") + ", not \"" + *value_ + "\"";
       case Takes::number:
       case Takes::length:
         return take_number(option, p);
