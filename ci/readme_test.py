@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""README.md must be short, its commands must work, and print what stands there; its C++ must compile.
+"""README.md must be short, its commands must work, and print what stands there; so must the commands of docs/, and C++ and C must compile.
 Usage: readme_test.py DELMESHER TETPROOF COMPILER"""
+import glob
 import os
 import re
 import subprocess
@@ -9,21 +10,43 @@ import tempfile
 import unittest
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), ".."))
-with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as stream:
-    README = stream.read()
+
+
+def read(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as stream:
+        return stream.read()
+
+
+README = read("README.md")
+GUIDES = {os.path.basename(path): read(path) for path in sorted(glob.glob(os.path.join(ROOT, "docs", "*.md")))}
 DELMESHER, TETPROOF, COMPILER = map(os.path.realpath, sys.argv[1:4])
 CORNERS = [(v & 1, v >> 1 & 1, v >> 2) for v in range(8)]
 CUBE = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+
+
+def stl(triangles, place=lambda x, y, z: (x, y, z)):
+    points = [place(*corner) for corner in CORNERS]
+    return "solid part\n%sendsolid part\n" % "".join(
+        "facet normal 0 0 0\nouter loop\n%sendloop\nendfacet\n" % "".join("vertex %r %r %r\n" % points[v] for v in t) for t in triangles)
+
+
 FILES = {
-    "part.stl": "solid part\n%sendsolid part\n" % "".join(
-        "facet normal 0 0 0\nouter loop\n%sendloop\nendfacet\n" % "".join("vertex %d %d %d\n" % CORNERS[v] for v in t) for t in CUBE),
+    "part.stl": stl(CUBE),
+    "torn.stl": stl(CUBE[1:]),
+    "rotated.stl": stl(CUBE, lambda x, y, z: (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z / 3)),
+    "air.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (4 * x - 2, 4 * y - 2, 4 * z - 2)),
     "outline.txt": "0 0\n4 0\n1 1\n0 4\n",
+    "names.txt": "1 wall\n",
+    "sizes.txt": "0 0 0 0.2\n",
 }
 
 
-def blocks(section, language=""):
-    text = re.search(r"^## %s\n(.*?)(?=^## |\Z)" % re.escape(section), README, re.M | re.S).group(1)
+def blocks_of(text, language=""):
     return re.findall(r"^```%s\n(.*?)^```" % re.escape(language), text, re.M | re.S)
+
+
+def blocks(section, language=""):
+    return blocks_of(re.search(r"^## %s\n(.*?)(?=^## |\Z)" % re.escape(section), README, re.M | re.S).group(1), language)
 
 
 def timeless(text):
@@ -45,11 +68,11 @@ class Readme(unittest.TestCase):
         cls.said = "".join(map(cls.run_line, blocks("Quick start")[0].strip().split("\n")[2:]))  # without installing and building
 
     @classmethod
-    def run_line(cls, line):
+    def run_line(cls, line, code=0):
         path = os.path.join(cls.scratch.name, "bin") + os.pathsep + os.environ["PATH"]
         done = subprocess.run(line, shell=True, cwd=cls.scratch.name, env=dict(os.environ, PATH=path), text=True, check=False, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT)
-        if done.returncode != 0:
+        if done.returncode != code:
             raise AssertionError("%s: exit code %d: %s" % (line, done.returncode, done.stdout))
         return done.stdout
 
@@ -71,14 +94,29 @@ class Readme(unittest.TestCase):
         self.assertEqual(lines.pop(), "...")
         self.assertEqual(self.run_line(command[2:]).split("\n")[: len(lines)], lines)
 
-    def test_cpp_compiles(self):
-        lines = blocks("C++", "cpp")[0].split("\n")
-        source = os.path.join(self.scratch.name, "readme.cpp")
+    def test_commands_of_guides_work(self):
+        self.run_line("delmesher part.stl -o part.msh")
+        lines = [line for text in GUIDES.values() for block in blocks_of(text) if "OPTIONS" not in block and "PATH" not in block
+                 for line in block.strip().split("\n")]
+        self.assertGreater(len(lines), 25)
+        for line in lines:
+            self.run_line(re.split(r"  +", line)[0], int((re.findall(r"exit code (\d)", line) + ["0"])[0]))
+
+    def compile(self, name, text):
+        source = os.path.join(self.scratch.name, name)
         with open(source, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        self.run_line("%s %s -fsyntax-only -I %s %s" % (COMPILER, "-std=c++20" if name.endswith("cpp") else "-x c", os.path.join(ROOT, "mesher"), source))
+
+    def test_c_compiles(self):
+        self.compile("guide.c", blocks_of(GUIDES["cpp.md"], "c")[0])
+
+    def test_cpp_compiles(self):
+        for text in blocks("C++", "cpp")[0], blocks_of(GUIDES["cpp.md"], "cpp")[0]:
+            lines = text.split("\n")
             includes = "\n".join(line for line in lines if line.startswith("#"))
             body = "\n".join(line for line in lines if not line.startswith("#"))
-            stream.write("%s\nint fail(const std::string&);\nint run() {\n%s\nreturn 0;\n}\n" % (includes, body))
-        self.run_line("%s -std=c++20 -fsyntax-only -I %s %s" % (COMPILER, os.path.join(ROOT, "mesher"), source))
+            self.compile("readme.cpp", "%s\nint fail(const std::string&);\nint run() {\n%s\nreturn 0;\n}\n" % (includes, body))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// The labels that `--label-by-angle DEGREES` promises, from its documentation (docs/commands.md).
+// The labels that `--label-by-angle DEGREES` promises, from its documentation (docs/names.md).
 #pragma once
 
 #include <string>
