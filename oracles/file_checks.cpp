@@ -42,6 +42,8 @@ class FileStep final : public Step {
   void check_quality(const TetComplex& complex, const Neighbours& neighbours,
                      const InputSurface& surface, const ConformityResult& conformity);
   void check_lengths(const TetComplex& complex);
+  bool labels_differ() const;
+  void tell_lost_labels();
   void check_no_list();
   void check_names();
 
@@ -53,10 +55,6 @@ class InputStep final : public Step {
   using Step::Step;
   std::string run() override;
 };
-
-// Of so many violations of a complex: what others ask of tetrahedra that lie on each other takes
-// time by the square of their number.
-constexpr std::uint64_t kHopeless = 1000;
 
 // Some formats have no convention: there the sign of the majority is the right one. A file with a
 // record was written by delmesher, which has one.
@@ -112,8 +110,8 @@ std::string FileStep::run() {
   ulp_ = ulp_of(surface);
   diagonal_ = surface.diagonal();
   if (!mesh_.edge_nodes.empty() || (options_.promised.second_order && mesh_.has_second_order)) {
-    OracleReport nodes = check_edge_nodes(
-        mesh_, std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_));
+    OracleReport nodes =
+        check_edge_nodes(mesh_, options_.declared_deviation * diagonal_, largest_given_);
     // Of a file alone nobody may know with which options it was made.
     if (exact_ != nullptr && !options_.promised.second_order) {
       nodes.fail("the elements are of second order, promised were linear ones");
@@ -137,8 +135,7 @@ std::string FileStep::run() {
   if (in_range) turn_all(complex);
   Neighbours neighbours;
   OracleReport shape = check_complex(complex, neighbours, options_.stage == Stage::refined);
-  const bool hopeless = shape.violations > kHopeless;
-  if (hopeless) shape.notes.emplace_back("it fails so often that nothing else was asked");
+  const bool hopeless = is_hopeless(shape);
   add(std::move(shape));
   if (!in_range || hopeless) return {};  // the complex oracle has reported it
   OracleReport orientation = check_orientation(complex);
@@ -188,14 +185,16 @@ BeforeWriting FileStep::before_writing() {
 
 void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighbours,
                              const InputSurface& input) {
-  Readings readings(subject_, complex, neighbours, input, ulp_, diagonal_);
+  Readings readings(subject_, complex, neighbours, input, ulp_, diagonal_, largest_given_);
   ConformityResult conformity = readings.conformity();
   const InputSurface& surface = readings.surface();
   if (conformity.report.passed()) {  // else the deviation means nothing
     report_.deviation = conformity.deviation;
+    report_.deviation_ulps = conformity.ulps;
     report_.slab = conformity.slab;
     slack_ = conformity.deviation;
-  } else if (exact_ == nullptr && undecidable(complex, surface, conformity, kRoundedUlps * ulp_)) {
+  } else if (exact_ == nullptr &&
+             undecidable(complex, surface, conformity, kRoundedUlps, largest_given_)) {
     conformity.report.undecided = true;
     conformity.report.notes.push_back(
         "where it fails, edges of the input are closer than doubles can tell: the file alone "
@@ -221,9 +220,13 @@ void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighb
   OracleReport list =
       check_boundary_list(complex, neighbours, surface, conformity, listed,
                           labelled ? mesh_.labels : std::vector<std::int32_t>{}, exact_ != nullptr);
-  if (!labelled && !input_.labels.empty()) {
-    list.notes.emplace_back("the input has labels and the file has none");
+  if (const double turned = list.figure(kTurned).value_or(0); turned > 0 && list.passed()) {
+    char text[100];
+    std::snprintf(text, sizeof text, "listed triangles are seen from outside (%.0f are not)",
+                  turned);
+    report_.unproven.emplace_back(text);
   }
+  if (!labelled) tell_lost_labels();
   add(std::move(list));
   check_names();
 }
@@ -241,11 +244,20 @@ void FileStep::check_surface_kept(const ConformityResult& conformity, Index firs
   add(std::move(kept));
 }
 
+bool FileStep::labels_differ() const {
+  return std::ranges::adjacent_find(input_.labels, std::ranges::not_equal_to()) !=
+         input_.labels.end();
+}
+
+// Not every format has labels.
+void FileStep::tell_lost_labels() {
+  if (labels_differ()) report_.unproven.emplace_back("labels of the input (the file has none)");
+}
+
 // Labels that differ are lost in a file that lists no triangles, though its format has them.
 void FileStep::check_no_list() {
-  const bool differ =
-      std::ranges::adjacent_find(input_.labels, std::ranges::not_equal_to()) != input_.labels.end();
-  if (!mesh_.lists_boundary || !differ) return;
+  if (!mesh_.lists_boundary) return tell_lost_labels();
+  if (!labels_differ()) return;
   OracleReport list("boundary-list", "labels");
   list.checked = 1;
   list.fail("the input has labels, and the file lists no triangles");

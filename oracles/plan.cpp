@@ -1,8 +1,9 @@
 #include "oracles/plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+
+#include "oracles/base/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -54,18 +55,17 @@ std::vector<PlannedStep> plan(const ExactRecord* exact, Stage stage) {
 }
 
 double Step::ulp_of(const InputSurface& surface) const {
-  const double largest = std::max(surface.largest_coordinate(), largest_given_);
-  return std::ldexp(1.0, std::ilogb(largest) - 52);
+  return unit_in_last_place(std::max(surface.largest_coordinate(), largest_given_));
 }
 
-void Step::move_to(VerifyReport& report, double& ulp, double& diagonal) {
-  report.deviation += report_.deviation;  // only the file has them
+void Step::move_to(VerifyReport& report, double& diagonal) {
+  report.deviation += report_.deviation;  // only one step has them
+  report.deviation_ulps += report_.deviation_ulps;
   report.slab += report_.slab;
   report.inverted += report_.inverted;
   report.flat += report_.flat;
   std::ranges::move(report_.unproven, std::back_inserter(report.unproven));
   std::move(report_.oracles.begin(), report_.oracles.end(), std::back_inserter(report.oracles));
-  if (ulp_ > 0) ulp = ulp_;
   if (diagonal_ > 0) diagonal = diagonal_;
 }
 

@@ -42,8 +42,8 @@ class Step {
 
   // Why the input bounds no solid, or an empty text.
   virtual std::string run() = 0;
-  // Appends this step's report; the last step that knows them tells the measures of the input.
-  void move_to(VerifyReport& report, double& ulp, double& diagonal);
+  // Appends this step's report; the last step that knows the diagonal of the input tells it.
+  void move_to(VerifyReport& report, double& diagonal);
 
  protected:
   // The unit in the last place of the largest coordinate as given.
@@ -60,8 +60,6 @@ class Step {
   Memory& memory_;
   VerifyReport report_;
   double ulp_ = 0, diagonal_ = 0;
-
- private:
   double largest_given_;
 };
 

@@ -18,7 +18,7 @@ struct Readings::Reading {
 const Readings::Reading Readings::kReadings[] = {
     {"exact", "every vertex of the boundary is exactly in its place", &Readings::always,
      &Readings::is_exact},
-    {"rounded", "vertices are at most 4 ulp of the largest coordinate from their places",
+    {"rounded", "vertices are at most 4 ulp of the largest coordinate there from their places",
      &Readings::near_planar, &Readings::is_rounded},
     {"facets united", "facets within the promised slab count as one where no mesh edge parts them",
      &Readings::near_planar, &Readings::has_united_facets},
@@ -36,7 +36,7 @@ const Readings::Reading Readings::kReadings[] = {
 };
 
 Readings::Readings(const Subject& subject, const TetComplex& complex, const Neighbours& neighbours,
-                   const InputSurface& surface, double ulp, double diagonal)
+                   const InputSurface& surface, double ulp, double diagonal, double largest_given)
     : input_(subject.input),
       exact_(subject.exact),
       shared_(subject.shared),
@@ -53,6 +53,7 @@ Readings::Readings(const Subject& subject, const TetComplex& complex, const Neig
   // A solid may be so small that roundings are a larger share of its diagonal.
   rounded_.largest_tolerance = std::max(rounded_.largest_tolerance, share);
   as_rounded_.largest_tolerance = share;
+  rounded_.largest_given = as_rounded_.largest_given = largest_given;
 }
 
 ConformityResult Readings::conformity() {
@@ -86,7 +87,7 @@ bool Readings::is_exact() {
 bool Readings::is_rounded() {
   result_ = check(surface_, as_rounded_);
   failed_edges_ = result_.failed_edges;
-  return result_.report.passed() && result_.deviation <= rounding_;
+  return result_.report.passed() && result_.ulps <= kRoundedUlps;
 }
 
 // Chains that the record gives may be anywhere. Only facets were promised to be no more than planar
@@ -96,10 +97,15 @@ bool Readings::conforms_to(InputSurface flat, double width) {
   as_rounded_.off_plane = rounding_;
   as_rounded_.planar = width > 0 ? bound_ : 0;
   ConformityResult of_flat = check(flat, as_rounded_);
-  const bool near = of_flat.off_edges <= std::max(rounding_, declared_) * (1 + 1e-9);
+  const bool near = of_flat.off_edges_ulps <= kRoundedUlps * (1 + 1e-9) ||
+                    of_flat.off_edges <= declared_ * (1 + 1e-9);
   if (!of_flat.report.passed() || !near) return false;
   of_flat.slab = width;
   of_flat.deviation = std::max(of_flat.deviation, width);
+  for (Index f = 0; f < flat.facets().size(); ++f) {
+    const double ulp = flat.ulp_on(f, as_rounded_.largest_given);
+    of_flat.ulps = std::max(of_flat.ulps, flat.facets()[f].slab / ulp);
+  }
   of_flat.report.figures.emplace_back("slab over diagonal", width / diagonal_);
   of_flat.report.figures.emplace_back(
       "facets united",

@@ -15,7 +15,7 @@ class Readings {
  public:
   // `surface` is the input, on the points of `complex`. All arguments must outlive this.
   Readings(const Subject& subject, const TetComplex& complex, const Neighbours& neighbours,
-           const InputSurface& surface, double ulp, double diagonal);
+           const InputSurface& surface, double ulp, double diagonal, double largest_given);
 
   // If the mesh conforms under no reading, that of "deviating".
   ConformityResult conformity();
@@ -50,7 +50,7 @@ class Readings {
   const TetComplex& complex_;
   const Neighbours& neighbours_;
   const InputSurface& surface_;
-  double rounding_;  // what rounding may move, in input units
+  double rounding_;  // what rounding may move at most, in input units
   double diagonal_;  // this and the next four in input units
   double bound_;     // width of the slab that was promised for facets; 0: none
   double widest_;    // the same of what --planar allows a run to state

@@ -114,6 +114,7 @@ OracleReport Sidecar::check_written() {
   // Otherwise the oracles of the file measure it, on its surface.
   if (options_.stage == Stage::refined) {
     report_.deviation = largest_rounding(mesh_, *exact_, *written);
+    report_.deviation_ulps = report_.deviation / ulp_;
   }
   return check_rounding(mesh_, *exact_, *written,
                         {.ulp = ulp_,

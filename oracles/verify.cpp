@@ -116,7 +116,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   }
   report = {};
   if (exact != nullptr && names_origin(*exact) && !move_beside_origin(frame, report)) {
-    conclude(0, 0, report);
+    conclude(0, report);
     return {};
   }
   put_in_ordinary_units(frame);
@@ -150,13 +150,13 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   for (const std::size_t n : order) {
     if (!why[n].empty()) return why[n];
   }
-  double ulp = 0, diagonal = 0;
-  for (const std::size_t n : order) steps[n]->move_to(report, ulp, diagonal);
+  double diagonal = 0;
+  for (const std::size_t n : order) steps[n]->move_to(report, diagonal);
   report.scope = scope_of(frame.options, exact != nullptr);
   if (exact == nullptr) {
     std::ranges::copy(options.promised.of_record, std::back_inserter(report.unproven));
   }
-  conclude(ulp, diagonal, report);
+  conclude(diagonal, report);
   put_in_given_units(frame, report);
   return {};
 }

@@ -69,9 +69,10 @@ std::map<std::string, double> figures_of(const VerifyReport& report, const std::
 TEST(Truths, FiguresAreThoseOfTheRun) {
   const ExactRecord& r = honest().record;
   const VerifyReport report = verdict_on(honest());
-  // The largest coordinate is 3.
+  // The largest coordinate is 3, that of some facets less.
   EXPECT_GT(report.deviation, 0);
-  EXPECT_DOUBLE_EQ(report.deviation_ulps, report.deviation / 0x1p-51);
+  EXPECT_GE(report.deviation_ulps, report.deviation / 0x1p-51);
+  EXPECT_LE(report.deviation_ulps, 4);
   std::set<Index> refined, created;
   for (const auto& tet : r.refined) refined.insert(tet.vertices.begin(), tet.vertices.end());
   for (const auto& tet : r.unrepaired.empty() ? r.final : r.unrepaired) {

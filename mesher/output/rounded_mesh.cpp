@@ -73,6 +73,23 @@ double NearestMesh::largest_of_surface() const {
   return largest;
 }
 
+std::vector<double> NearestMesh::largest_of_facets() const {
+  std::map<FacetId, double> of_facet;
+  for (const SurfaceFace& face : mesh.boundary) {
+    double& largest = of_facet[face.facet];
+    for (const VertexId v : face.vertices) {
+      largest = std::max(largest, largest_component(frame.given(home[v])));
+    }
+  }
+  std::vector<double> largest(point.size(), largest_of_surface());
+  for (const SurfaceFace& face : mesh.boundary) {
+    for (const VertexId v : face.vertices) {
+      largest[v] = std::min(largest[v], of_facet[face.facet]);
+    }
+  }
+  return largest;
+}
+
 std::vector<std::vector<VertexId>> NearestMesh::coincident(std::span<const Vec3> position) const {
   // Moves never end at other vertices (occupied), so only vertices that have not moved can
   // coincide.

@@ -32,6 +32,9 @@ struct NearestMesh {
   // are no faces of the surface, of all that is held in place. The box around the surface is larger
   // and says nothing about the surface's scale.
   double largest_of_surface() const;
+  // Per vertex, the same of the facet that it is on, or of the smallest one of several; of others
+  // that of the surface.
+  std::vector<double> largest_of_facets() const;
   // Groups of vertices with equal coordinates, in their order, where vertices are at `position`.
   // Those that have moved are in none.
   std::vector<std::vector<VertexId>> coincident(std::span<const Vec3> position) const;

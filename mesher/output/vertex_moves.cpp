@@ -122,7 +122,9 @@ Vec3 deepest_point(const StarFrame& frame) {
 }  // namespace
 
 VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllChainsBudget) {
-  surface_unit_ = unit_in_last_place(mesh.nearest().largest_of_surface());
+  for (const double largest : mesh.nearest().largest_of_facets()) {
+    surface_unit_.push_back(unit_in_last_place(largest));
+  }
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
@@ -152,18 +154,19 @@ std::vector<std::uint32_t> VertexMoves::movable(std::uint32_t t) const {
 bool VertexMoves::allowed(std::uint32_t v, const Vec3& p) const {
   if (!is_finite(p) || p == mesh_.position(v)) return false;
   if (mesh_.moves_far(v)) return true;
-  if (surface_unit_ == 0) return false;
+  const double surface_unit = surface_unit_[v];
+  if (surface_unit == 0) return false;
   const Vec3& home = mesh_.home(v);
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double d = (std::fabs(p[i] - home[i]) + mesh_.nearest().home_error(v)) / surface_unit_;
+    const double d = (std::fabs(p[i] - home[i]) + mesh_.nearest().home_error(v)) / surface_unit;
     sum += d * d;
   }
   return sum <= kSurfaceUlps * kSurfaceUlps;
 }
 
 // Neighbouring doubles in each coordinate, then steps of the unit of the vertex's largest
-// coordinate; if `wide`, instead of these, steps of the unit of the surface's largest coordinate
+// coordinate; if `wide`, instead of these, steps of the unit of its facets' largest coordinate
 // (and, for vertices that may move far, some multiples of it).
 void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
   candidates_.clear();
@@ -184,9 +187,10 @@ void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
     add({own, own, own}, 2);
     return;
   }
-  if (surface_unit_ != own) add({surface_unit_, surface_unit_, surface_unit_}, 2);
-  if (!mesh_.moves_far(v) || surface_unit_ == 0) return;
-  for (double unit = 4 * surface_unit_; unit <= 64 * surface_unit_; unit *= 4) {
+  const double surface_unit = surface_unit_[v];
+  if (surface_unit != own) add({surface_unit, surface_unit, surface_unit}, 2);
+  if (!mesh_.moves_far(v) || surface_unit == 0) return;
+  for (double unit = 4 * surface_unit; unit <= 64 * surface_unit; unit *= 4) {
     add({unit, unit, unit}, 2);
   }
 }

@@ -13,9 +13,10 @@
 namespace delmesher::output {
 
 // Surface vertices stay within kSurfaceUlps units in the last place of the largest coordinate of
-// the surface from their exact position; fixed vertices stay; others move as far as needed, but the
-// shortest moves are tried first. Where vertices have places other than their exact ones, which may
-// be far away, the others stay near, too: such a mesh needs other places.
+// their facet (of the smallest, if they are on several) from their exact position; fixed vertices
+// stay; others move as far as needed, but the shortest moves are tried first. Where vertices have
+// places other than their exact ones, which may be far away, the others stay near, too: such a mesh
+// needs other places.
 inline constexpr double kSurfaceUlps = 4;
 
 class VertexMoves {
@@ -59,7 +60,7 @@ class VertexMoves {
   bool lighten(TetId t);
 
   RoundedMesh& mesh_;
-  double surface_unit_ = 0;                // unit in the last place of the largest coordinate
+  std::vector<double> surface_unit_;       // per vertex: what kSurfaceUlps counts
   std::vector<std::array<int, 3>> steps_;  // of a 5 x 5 x 5 grid, shortest first
   std::vector<Vec3> candidates_;           // of the vertex under consideration
   std::int64_t chains_budget_;

@@ -150,9 +150,17 @@ std::string read_whole_file(const std::string& path) {
     contents.resize(before + kPiece);
     got = stream.read(contents.data() + before, kPiece);
     contents.resize(before + got);
+    if (!unknown && !stream.is_plain()) check_unpacked(path, size, contents.size());
   }
   if (contents.empty()) throw ReadError(path + ": cannot be read, or is empty");
   return contents;
+}
+
+void check_unpacked(const std::string& what, std::uint64_t packed, std::uint64_t unpacked) {
+  constexpr std::uint64_t kTimes = 64, kAnyway = std::uint64_t{1} << 26;
+  if (unpacked > kAnyway && (unpacked - kAnyway) / kTimes > packed) {
+    throw ReadError(what + ": unpacks to more than " + std::to_string(kTimes) + " times its size");
+  }
 }
 
 std::string without_gz(const std::string& path) {

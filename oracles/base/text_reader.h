@@ -22,6 +22,11 @@ struct ReadError : std::runtime_error {
 // it is empty.
 std::string read_whole_file(const std::string& path);
 
+// Throws ReadError (`what` is its beginning) if a packed file of so many bytes holds more than a
+// mesh or a surface can: such a file would only take memory before it is rejected. The numbers of
+// regular grids, which are packed best, take a 16th of their text.
+void check_unpacked(const std::string& what, std::uint64_t packed, std::uint64_t unpacked);
+
 // What a file that may be compressed with gzip is called without that: "part.stl" of "part.stl.gz".
 std::string without_gz(const std::string& path);
 // The path, with ".gz" after it where only such a file exists.

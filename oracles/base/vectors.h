@@ -1,6 +1,7 @@
 // Vectors and places in doubles.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "oracles/base/exact_points.h"
@@ -29,6 +30,15 @@ inline bool is_finite(const Position& p) {
 
 inline double distance(const Position& p, const Position& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+inline double largest_component(const Position& p) {
+  return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+}
+
+// The unit in the last place of a double, which need not be 1.0 or larger.
+inline double unit_in_last_place(double x) {
+  return x == 0 ? 0x1p-1074 : std::max(std::ldexp(1.0, std::ilogb(x) - 52), 0x1p-1074);
 }
 
 // Not by hypot, for frequent use.

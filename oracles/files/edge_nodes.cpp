@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "oracles/base/text_reader.h"
+#include "oracles/base/vectors.h"
+#include "oracles/verdict/verdict.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -95,12 +97,15 @@ void take_out_edge_nodes(MeshFile& mesh, const NodesOnEdges& nodes, const std::s
   list.take_out();
 }
 
-OracleReport check_edge_nodes(const MeshFile& mesh, double allowed) {
+OracleReport check_edge_nodes(const MeshFile& mesh, double declared, double largest_given) {
   OracleReport report("edge-nodes", "edges");
   if (mesh.edge_nodes.empty()) report.fail("the elements are linear, promised was --order 2");
   double farthest = 0;
   for (const auto& [ends, at] : mesh.edge_nodes) {
     ++report.checked;
+    const double largest = std::max({largest_component(mesh.vertices[ends[0]]),
+                                     largest_component(mesh.vertices[ends[1]]), largest_given});
+    const double allowed = std::max(kRoundedUlps * unit_in_last_place(largest), declared);
     double off = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double middle = mesh.vertices[ends[0]][k] / 2 + mesh.vertices[ends[1]][k] / 2;

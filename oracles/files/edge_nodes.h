@@ -25,7 +25,8 @@ struct NodesOnEdges {
 // is a corner or on two edges, or if an edge has two.
 void take_out_edge_nodes(MeshFile& mesh, const NodesOnEdges& nodes, const std::string& path);
 
-// Straight edges have their node in the middle, except for what is allowed (a length).
-OracleReport check_edge_nodes(const MeshFile& mesh, double allowed);
+// Straight edges have their node in the middle, within 4 ulp of the edge's largest coordinate (or
+// that as given, if it is larger) or what is declared (a length).
+OracleReport check_edge_nodes(const MeshFile& mesh, double declared, double largest_given = 0);
 
 }  // namespace tetproof::oracles

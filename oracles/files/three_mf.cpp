@@ -46,6 +46,7 @@ class Archive {
         entry.size / 1032 > entry.comp_size) {
       fail(name + " has a size that cannot be");
     }
+    check_unpacked(path_ + ": " + name, entry.comp_size, entry.size);
     std::string text(entry.size, '\0');
     const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(
         zip_fopen_index(archive_.get(), index, 0), &zip_fclose);

@@ -215,6 +215,7 @@ std::string VtuText::unpacked(std::string_view bytes) const {
     const std::uint64_t wanted = b + 1 == blocks && last != 0 ? last : size;
     // No block becomes more than 1032 times as large.
     if (packed[b] > bytes.size() || wanted / 1032 > packed[b]) fail("blocks that are not there");
+    check_unpacked(path_, text_.size(), all.size() + wanted);
     std::string block(wanted, '\0');
     uLongf got = wanted;
     const int code = ::uncompress(reinterpret_cast<Bytef*>(block.data()), &got,

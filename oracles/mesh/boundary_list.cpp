@@ -53,10 +53,9 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
   for (std::size_t i = 0; i < actual.size(); ++i) {
     if (!found[i]) report.fail("boundary " + complex.face_name(actual[i].first) + " is not listed");
   }
-  if (oriented && turned > 0 && turned == actual.size()) {
-    report.fail("all listed triangles look into the solid");
-  } else if (turned > 0) {
-    report.notes.push_back(std::to_string(turned) + " listed triangles look into the solid");
+  if (turned > 0) report.figures.emplace_back(kTurned, static_cast<double>(turned));
+  if (oriented && turned > 0) {
+    report.fail(std::to_string(turned) + " listed triangles are seen from inside the solid");
   }
   return report;
 }

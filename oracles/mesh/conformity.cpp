@@ -54,6 +54,7 @@ class Conformity {
     match_vertices();
     follow_edges();
     result_.off_edges = result_.deviation;
+    result_.off_edges_ulps = result_.ulps;
     if (!ended()) grow_patches();
     if (!ended()) check_borders();
     if (!ended()) check_facets();
@@ -94,9 +95,16 @@ class Conformity {
   // largest deviation so far? Then its distance need not be known.
   bool surely_seen(const InputSurface::Edge& edge, Index v) const;
   bool surely_seen(const InputSurface::Facet& facet, Index v) const;
-  void deviate(double distance) {
+  double ulp_on(const auto& place) const { return surface_.ulp_on(place, options_.largest_given); }
+  void deviate(double distance, double ulp) {
     // The few roundings of measuring stay below this factor.
-    result_.deviation = std::max(result_.deviation, distance * (1 + 1e-12));
+    distance *= 1 + 1e-12;
+    result_.deviation = std::max(result_.deviation, distance);
+    result_.ulps = std::max(result_.ulps, distance / ulp);
+  }
+  // No point within this distance changes what is known.
+  double known_deviation(double ulp) const {
+    return std::min(result_.deviation, result_.ulps * ulp);
   }
   void fail(const std::string& what) {
     ++result_.failed_elsewhere;
@@ -148,10 +156,18 @@ void Conformity::match_vertices() {
       fail("input vertex " + std::to_string(v) + " is not on the boundary");
     }
   }
-  deviate(match_->deviation());
-  const std::uint64_t moved = match_->moved();
-  result_.report.figures.emplace_back("input vertices moved", moved);
-  if (moved > 0) result_.report.notes.push_back(std::to_string(moved) + " input vertices moved");
+  const std::vector<Index>& moved = match_->moved();
+  result_.report.figures.emplace_back("input vertices moved", moved.size());
+  if (moved.empty()) return;
+  result_.report.notes.push_back(std::to_string(moved.size()) + " input vertices moved");
+  std::vector<double> ulp(points_.size(), HUGE_VAL);
+  for (Index t = 0; t < surface_.triangles().size(); ++t) {
+    const double here = ulp_on(surface_.facet_of_triangle()[t]);
+    for (const Index v : surface_.triangles()[t]) ulp[v] = std::min(ulp[v], here);
+  }
+  for (const Index v : moved) {
+    if (match_->of(v) != kNone) deviate(exact::distance(points_, v, match_->of(v)), ulp[v]);
+  }
 }
 
 void Conformity::follow_edges() {
@@ -188,7 +204,7 @@ void Conformity::put_in_chains(const InputSurface::Edge& edge, const std::vector
     const ExactVector off =
         exact::cross(direction, exact::difference(points_, edge.from, chain[i]));
     if (!exact::is_zero(off)) {
-      deviate(length_over(off, direction, points_.exponent()));
+      deviate(length_over(off, direction, points_.exponent()), ulp_on(edge));
     }
   }
 }
@@ -196,7 +212,8 @@ void Conformity::put_in_chains(const InputSurface::Edge& edge, const std::vector
 bool Conformity::surely_seen(const InputSurface::Edge& edge, Index v) const {
   const IntervalVector along = points_.rough_difference(edge.from, edge.to);
   const IntervalVector off = exact::cross(along, points_.rough_difference(edge.from, v));
-  return surely_at_most(exact::dot(off, off), result_.deviation, exact::dot(along, along));
+  return surely_at_most(exact::dot(off, off), known_deviation(ulp_on(edge)),
+                        exact::dot(along, along));
 }
 
 bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
@@ -204,7 +221,9 @@ bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
   const Interval off = exact::dot(normal, points_.rough_difference(facet.span[0], v));
   // What is farther than this may be too far for this facet, however far others reach.
   const double own = options_.off_plane > 0 ? facet.slab + options_.off_plane : HUGE_VAL;
-  return surely_at_most(off * off, std::min(result_.deviation, own), exact::dot(normal, normal));
+  const Index number = static_cast<Index>(&facet - surface_.facets().data());
+  return surely_at_most(off * off, std::min(known_deviation(ulp_on(number)), own),
+                        exact::dot(normal, normal));
 }
 
 // Faces beside a chain belong to the facet on that side, and so do those reached without crossing a
@@ -374,14 +393,14 @@ void Conformity::check_folded(Index facet, const std::vector<Face>& folded,
     for (std::size_t i = 0; i < 3; ++i) triangle[i] = points_.nearest(surface_.triangles()[t][i]);
   }
   const double widest = 2 * plane_tolerance(facet), most = most_off_plane(facet, HUGE_VAL);
-  double distance = std::min(result_.deviation, most);
+  double distance = std::min(known_deviation(ulp_on(facet)), most);
   for (const Face& face : folded) {
     const double width = width_of(face);
     if (!(width <= widest)) return fail_folded(face);
     distance = reach_of(face, corners, std::max(distance, width / 2), most);
     if (!(distance <= most)) return fail_folded(face);
   }
-  deviate(distance);
+  deviate(distance, ulp_on(facet));
   result_.report.notes.push_back(std::to_string(folded.size()) + " faces folded over on " +
                                  facet_name(facet));
 }
@@ -436,7 +455,7 @@ void Conformity::check_in_plane(Index facet, Index v) {
   if (options_.exact || !(distance <= most_off_plane(facet, distance))) {
     fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet));
   } else {
-    deviate(distance);
+    deviate(distance, ulp_on(facet));
   }
 }
 

@@ -47,6 +47,8 @@ struct ConformityOptions {
   // deviation measured.
   bool exact = true;
   double largest_tolerance = 1e-5;  // fraction of the diagonal
+  // The largest coordinate as given, where that is larger than those here.
+  double largest_given = 0;
   // The tolerance for the planes of facets alone, in input units, beyond the slab of each; 0:
   // largest_tolerance.
   double off_plane = 0;
@@ -68,8 +70,10 @@ struct ConformityResult {
   // Width of the widest slab that contains a facet made of several (InputSurface::unite_facets), in
   // input units. Set by the caller who united them.
   double slab = 0;
-  double deviation = 0;       // largest distance of a surface vertex from its place, rounded up
-  double off_edges = 0;       // the same of the vertices of the surface's edges
+  // The largest distance of a vertex from its vertex, edge or facet of the surface, rounded up: in
+  // input units, and in ulp of the largest coordinate of the facet, or of the smallest one there.
+  double deviation = 0, ulps = 0;
+  double off_edges = 0, off_edges_ulps = 0;  // the same of the vertices of the surface's edges
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside
   std::vector<Index> facets;  // per face: the input facet that it tiles, or kNone
   std::uint64_t chain_edges = 0;
@@ -87,16 +91,18 @@ ConformityResult check_conformity(const TetComplex& complex, const Neighbours& n
 
 // Does the check, without chains from a record, fail only where the input's own edges are closer
 // together than the doubles of a file can tell? Positions do not say then to which of them a mesh
-// edge belongs. For this each face of the boundary is within `distance` (input units) of one facet.
-// Each edge that failed, and some edge of each facet that failed, has a vertex of the boundary
-// within `distance` of it, not at its ends, that is as near to another edge of the input.
+// edge belongs. For this each face of the boundary is within `ulps` (as ConformityResult::ulps) of
+// one facet. Each edge that failed, and some edge of each facet that failed, has a vertex of the
+// boundary so near to it, not at its ends, that is as near to another edge of the input.
 bool undecidable(const TetComplex& complex, const InputSurface& surface,
-                 const ConformityResult& conformity, double distance);  // undecidable.cpp
+                 const ConformityResult& conformity, double ulps,
+                 double largest_given);  // undecidable.cpp
 
 // The triangles that a file lists as the boundary are exactly conformity.faces, in any order, and
 // each carries the label of its facet (labels may be empty). Faces of the hull may be listed too.
-// If `oriented`, they do not all look into the solid. How many do otherwise is told: some programs
-// list them either way.
+// If `oriented`, all are counter-clockwise from outside. How many are not is told otherwise (a
+// figure): no format says which, and TetGen lists all of them the other way round.
+inline constexpr const char* kTurned = "seen from inside";
 OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
                                  const InputSurface& surface, const ConformityResult& conformity,
                                  const std::vector<Face>& listed,

@@ -24,9 +24,7 @@ VertexMatch::VertexMatch(const ExactPoints& points, const BoundaryEdges& edges,
     match_[v] = equal_vertex(v);
     if (match_[v] != kNone || options.exact) continue;
     match_[v] = nearest_vertex(v);
-    ++moved_;
-    if (match_[v] == kNone) continue;
-    deviation_ = std::max(deviation_, exact::distance(points, v, match_[v]));
+    moved_.push_back(v);
   }
   for (const Index v : surface.used_vertices()) {
     if (match_[v] != kNone) matched_[match_[v]] = 1;

@@ -22,9 +22,8 @@ class VertexMatch {
   Index of(Index input_vertex) const { return match_[input_vertex]; }
   // Is a vertex of the boundary that of an input vertex?
   bool is_matched(Index v) const { return matched_[v] != 0; }
-  // How many input vertices have none with equal coordinates, and how far at most the others are.
-  std::uint64_t moved() const { return moved_; }
-  double deviation() const { return deviation_; }
+  // The input vertices that have none with equal coordinates.
+  const std::vector<Index>& moved() const { return moved_; }
 
  private:
   Index equal_vertex(Index input_vertex) const;
@@ -37,8 +36,7 @@ class VertexMatch {
   std::vector<Index> by_position_;  // vertices of the boundary, once these are needed
   std::vector<Index> match_;        // per input vertex
   std::vector<std::uint8_t> matched_;
-  std::uint64_t moved_ = 0;
-  double deviation_ = 0;
+  std::vector<Index> moved_;
 };
 
 // Laws:

@@ -28,8 +28,8 @@ bool boxed(const ExactPoints& points, const InputSurface::Edge& edge, Index v, d
 class Ambiguity {
  public:
   Ambiguity(const TetComplex& complex, const InputSurface& surface,
-            const ConformityResult& conformity, double distance)
-      : points_(*complex.points), surface_(surface), distance_(distance) {
+            const ConformityResult& conformity, double ulps, double largest_given)
+      : points_(*complex.points), surface_(surface), ulps_(ulps), largest_given_(largest_given) {
     for (const Face& face : conformity.faces) {
       vertices_.insert(vertices_.end(), face.begin(), face.end());
     }
@@ -51,31 +51,36 @@ class Ambiguity {
 
  private:
   bool near(const InputSurface::Edge& edge, Index v) const {
-    return boxed(points_, edge, v, distance_) &&
-           within(points_, squared_distance_to_segment(points_, v, edge.from, edge.to), distance_);
+    const double distance = ulps_ * surface_.ulp_on(edge, largest_given_);
+    return boxed(points_, edge, v, distance) &&
+           within(points_, squared_distance_to_segment(points_, v, edge.from, edge.to), distance);
   }
 
   const ExactPoints& points_;
   const InputSurface& surface_;
-  double distance_;
+  double ulps_, largest_given_;
   std::vector<Index> vertices_;
 };
 
-// Is every face of the boundary, with all its corners, within `distance` of one facet?
+// Is every face of the boundary, with all its corners, so near to one facet?
 bool along_surface(const TetComplex& complex, const InputSurface& surface,
-                   const std::vector<Face>& faces, double distance) {
+                   const std::vector<Face>& faces, double ulps, double largest_given) {
   const ExactPoints& points = *complex.points;
+  const double most =
+      ulps * unit_in_last_place(std::max(surface.largest_coordinate(), largest_given));
   std::unordered_map<Index, std::vector<Index>> near;  // the facets near each vertex, sorted
   std::vector<Index> found;
   const auto facets_near = [&](Index v) -> const std::vector<Index>& {
     const auto [at, fresh] = near.try_emplace(v);
     if (!fresh) return at->second;
     found.clear();
-    surface.triangles_near(enlarged(box_around(points, std::array{v}), 2 * distance), found);
+    surface.triangles_near(enlarged(box_around(points, std::array{v}), 2 * most), found);
     for (const Index t : found) {
       const auto& triangle = surface.triangles()[t];
+      const Index facet = surface.facet_of_triangle()[t];
+      const double distance = ulps * surface.ulp_on(facet, largest_given);
       if (!within(points, squared_distance_to_triangle(points, v, triangle), distance)) continue;
-      at->second.push_back(surface.facet_of_triangle()[t]);
+      at->second.push_back(facet);
     }
     std::sort(at->second.begin(), at->second.end());
     at->second.erase(std::unique(at->second.begin(), at->second.end()), at->second.end());
@@ -96,10 +101,10 @@ bool along_surface(const TetComplex& complex, const InputSurface& surface,
 }  // namespace
 
 bool undecidable(const TetComplex& complex, const InputSurface& surface,
-                 const ConformityResult& conformity, double distance) {
+                 const ConformityResult& conformity, double ulps, double largest_given) {
   if (conformity.failed_elsewhere > 0 || conformity.report.passed()) return false;
-  if (!along_surface(complex, surface, conformity.faces, distance)) return false;
-  const Ambiguity ambiguity(complex, surface, conformity, distance);
+  if (!along_surface(complex, surface, conformity.faces, ulps, largest_given)) return false;
+  const Ambiguity ambiguity(complex, surface, conformity, ulps, largest_given);
   const auto& edges = surface.edges();
   return std::all_of(conformity.failed_edges.begin(), conformity.failed_edges.end(),
                      [&](Index e) { return ambiguity.at(e); }) &&

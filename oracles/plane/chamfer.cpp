@@ -317,8 +317,8 @@ class ChamferChecker {
     const double size = std::max(magnitude(piece.a), magnitude(piece.b));
     if (no_room(length, size)) return Reason::crowded;
     Reason reason = Reason::none;
-    const auto box = box_of({&graph_.vertex(piece.a), &graph_.vertex(piece.b)},
-                            promise_.tau * length + kNoRoom * size);
+    const auto box = plane_box({&graph_.vertex(piece.a), &graph_.vertex(piece.b)},
+                               promise_.tau * length + kNoRoom * size);
     graph_.near_vertices(box, [&](Index v) {
       if (v == piece.a || v == piece.b || reason != Reason::none) return;
       if (no_room(points_.distance_to_segment(v, piece.a, piece.b), size)) {

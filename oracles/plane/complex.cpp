@@ -43,13 +43,15 @@ class ComplexCheck {
         complex_(prefix + "complex", "triangles"),
         orientation_(prefix + "orientation", "triangles") {}
 
-  void run(VerifyReport& report) {
+  bool run(VerifyReport& report) {
     check_triangles();
     check_rectangle();
     check_border();
     check_listed();
+    const bool hopeless = is_hopeless(complex_);
     report.oracles.push_back(std::move(complex_));
     report.oracles.push_back(std::move(orientation_));
+    return !hopeless;
   }
 
  private:
@@ -150,7 +152,7 @@ std::string triangle_name(std::size_t t) {
 PlaneComplex::PlaneComplex(const std::vector<Triangle>& triangles,
                            const std::vector<ListedEdge>& edges, PlanePoints& points)
     : triangles_(triangles), listed_(edges), exact_(points) {
-  std::vector<PlaneGrid::Box> boxes;
+  std::vector<PlaneBoxes::Box> boxes;
   for (Index t = 0; t < triangles.size(); ++t) {
     const auto& v = triangles[t].vertices;
     boxes.push_back(box(triangles[t]));
@@ -162,7 +164,7 @@ PlaneComplex::PlaneComplex(const std::vector<Triangle>& triangles,
   for (const auto& edge : edges) {
     segment_of_.emplace(undirected(edge.vertices[0], edge.vertices[1]), edge.segment);
   }
-  cells_ = PlaneGrid(boxes);
+  boxes_ = PlaneBoxes(boxes);
 }
 
 bool PlaneComplex::has(const PlaneEdge& edge) const {
@@ -196,14 +198,14 @@ mpq_class PlaneComplex::doubled_area(const Triangle& triangle) const {
   return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
 }
 
-PlaneGrid::Box PlaneComplex::box(const Triangle& triangle) const {
+PlaneBoxes::Box PlaneComplex::box(const Triangle& triangle) const {
   const auto& [a, b, c] = triangle.vertices;
-  return box_of({&point(a), &point(b), &point(c)}, 0);
+  return plane_box({&point(a), &point(b), &point(c)}, 0);
 }
 
 Index PlaneComplex::triangle_with(const Point& p) {
   Index found = kNone;
-  cells_.visit(box_of({&p}, 0), [&](Index t) {
+  boxes_.visit(plane_box({&p}, 0), [&](Index t) {
     const auto& [a, b, c] = triangles_[t].vertices;
     if (found == kNone && exact_.orient(point(a), point(b), p) >= 0 &&
         exact_.orient(point(b), point(c), p) >= 0 && exact_.orient(point(c), point(a), p) >= 0) {
@@ -234,10 +236,11 @@ std::vector<std::vector<SegmentPart>> parts_of(const PlaneComplex& mesh, const P
   return parts;
 }
 
-void check_plane_complex(const PlaneComplex& mesh, const PlaneGraph& input,
+bool check_plane_complex(const PlaneComplex& mesh, const PlaneGraph& input,
                          const std::string& prefix, VerifyReport& report) {
-  ComplexCheck(mesh, input, prefix).run(report);
+  if (!ComplexCheck(mesh, input, prefix).run(report)) return false;
   check_delaunay(mesh, prefix, report);
+  return true;
 }
 
 }  // namespace tetproof::oracles

@@ -54,7 +54,7 @@ class PlaneComplex {
   Point centroid(const Triangle& triangle) const;
   // Twice the area, negative if the triangle is clockwise.
   mpq_class doubled_area(const Triangle& triangle) const;
-  PlaneGrid::Box box(const Triangle& triangle) const;
+  PlaneBoxes::Box box(const Triangle& triangle) const;
   // A triangle that contains the point, possibly on its border, or kNone.
   Index triangle_with(const Point& p);
 
@@ -64,7 +64,7 @@ class PlaneComplex {
   PlanePoints& exact_;
   std::map<PlaneEdge, Index> left_of_, segment_of_;
   std::map<Index, std::vector<Index>> at_;
-  PlaneGrid cells_;  // of the triangles
+  PlaneBoxes boxes_;  // of the triangles
 };
 
 // A record of the plane whose points have been read, with its two meshes.
@@ -99,7 +99,8 @@ std::vector<std::vector<SegmentPart>> parts_of(const PlaneComplex& mesh, const P
 //   on a segment or on the rectangle;
 // - orientation: every triangle is counter-clockwise;
 // - delaunay: every edge that is not listed is locally Delaunay.
-void check_plane_complex(const PlaneComplex& mesh, const PlaneGraph& input,
+// False if it is no complex at all (is_hopeless), so that nothing else is worth asking.
+bool check_plane_complex(const PlaneComplex& mesh, const PlaneGraph& input,
                          const std::string& prefix, VerifyReport& report);
 
 }  // namespace tetproof::oracles

@@ -33,8 +33,9 @@ class FileChecker {
 
   void run(VerifyReport& report) {
     check_complex();
+    const bool hopeless = is_hopeless(complex_);
     report.oracles.push_back(complex_);
-    if (indices_right_) {
+    if (indices_right_ && !hopeless) {
       for (const auto& p : file_.vertices) points_.add({p[0], p[1], p[0], p[1]});
       check_orientation(report);
       measure_angles();
@@ -199,7 +200,7 @@ class FileChecker {
     m.dx = m.x.get_d();
     m.dy = m.y.get_d();
     bool in_one = false, at_border = false;  // of any triangle: m may be one of its vertices
-    cells_.visit(box_of({&m}, tolerance_), [&](Index t) {
+    boxes_.visit(plane_box({&m}, tolerance_), [&](Index t) {
       const auto& v = file_.triangles[t];
       const auto& all = points_.all();
       bool in_this = true;
@@ -216,11 +217,11 @@ class FileChecker {
 
   void check_conformity() {
     const auto& all = points_.all();
-    std::vector<PlaneGrid::Box> boxes;
+    std::vector<PlaneBoxes::Box> boxes;
     for (const auto& v : file_.triangles) {
-      boxes.push_back(box_of({&all[v[0]], &all[v[1]], &all[v[2]]}, 0));
+      boxes.push_back(plane_box({&all[v[0]], &all[v[1]], &all[v[2]]}, 0));
     }
-    cells_ = PlaneGrid(boxes);
+    boxes_ = PlaneBoxes(boxes);
     for (Index v = 0; v < file_.vertices.size(); ++v) {
       const auto& p = file_.vertices[v];
       if (!at_.emplace(std::array{p[0] + 0.0, p[1] + 0.0}, v).second) {
@@ -268,7 +269,7 @@ class FileChecker {
       if (at_.contains(place(v))) continue;
       const Point& p = graph_.vertex(v);
       bool within = false;
-      cells_.visit(box_of({&p}, 0), [&](Index t) {
+      boxes_.visit(plane_box({&p}, 0), [&](Index t) {
         const auto& c = file_.triangles[t];
         const auto& all = points_.all();
         within = within || (points_.orient(all[c[0]], all[c[1]], p) > 0 &&
@@ -360,7 +361,7 @@ class FileChecker {
       ++sides_.checked;
       if (graph_.on_segment(hole)) continue;
       const Point p{hole[0], hole[1], hole[0], hole[1]};
-      cells_.visit({hole, hole}, [&](Index t) {
+      boxes_.visit({hole, hole}, [&](Index t) {
         const auto& c = file_.triangles[t];
         const auto& all = points_.all();
         if (inside(t) && (!hull() || !file_.inside.empty()) &&
@@ -395,11 +396,11 @@ class FileChecker {
       const Point p{region.point[0], region.point[1], region.point[0], region.point[1]};
       if (graph_.on_segment(region.point) || !inside_.contains(p)) continue;
       if (near_a_segment(p)) {
-        cells_.visit(box_of({&p}, tolerance_), [&](Index t) { unknown.insert(parts.find(t)); });
+        boxes_.visit(plane_box({&p}, tolerance_), [&](Index t) { unknown.insert(parts.find(t)); });
         continue;
       }
       const auto& all = points_.all();
-      cells_.visit({region.point, region.point}, [&](Index t) {
+      boxes_.visit({region.point, region.point}, [&](Index t) {
         const auto& c = file_.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
           if (points_.orient(all[c[i]], all[c[(i + 1) % 3]], p) < 0) return;
@@ -426,7 +427,7 @@ class FileChecker {
   // Is a point so close to a segment that rounding may have moved it across?
   bool near_a_segment(const Point& m) {
     bool near = false;
-    graph_.near_segments(box_of({&m}, tolerance_), [&](Index s) {
+    graph_.near_segments(plane_box({&m}, tolerance_), [&](Index s) {
       const auto& [a, b] = graph_.given().segments[s];
       near = near || distance(m, graph_.vertex(a), graph_.vertex(b)) <= tolerance_;
     });
@@ -510,7 +511,7 @@ class FileChecker {
   bool recorded_;
   int scale_ = 0;
   PlanePoints points_;
-  PlaneGrid cells_;
+  PlaneBoxes boxes_;
   bool indices_right_ = true;
   double deviation_ = 0;
   std::map<Edge, Index> left_of_;  // directed edge to the triangle on its left

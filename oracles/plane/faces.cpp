@@ -7,12 +7,8 @@
 #include <utility>
 
 namespace tetproof::oracles {
-namespace {
 
-constexpr PlanePoints::Index kNone = 0xffffffffU;
 using delmesher::Insideness;
-
-}  // namespace
 
 // Where a piece crosses the ray to the right of a point, and how far its upper end is to the right
 // of there for each unit upwards. The ray is above the point by less than anything.
@@ -126,7 +122,7 @@ std::optional<PlaneFaces::Crossing> PlaneFaces::crossing(Index piece, const Poin
 PlaneFaces::Index PlaneFaces::border_right_of(const Point& p) {
   std::optional<Crossing> nearest;
   const double off = 1e-14 * std::fabs(p.dy);
-  const PlaneGrid::Box ray{{p.dx - 1e-14 * std::fabs(p.dx), p.dy - off}, {HUGE_VAL, p.dy + off}};
+  const PlaneBoxes::Box ray{{p.dx - 1e-14 * std::fabs(p.dx), p.dy - off}, {HUGE_VAL, p.dy + off}};
   graph_.near_segments(ray, [&](Index s) {
     for (const Index piece : graph_.pieces_of()[s]) {
       std::optional<Crossing> found = crossing(piece, p);

@@ -128,7 +128,7 @@ std::vector<std::uint8_t> vertices_of(const PlaneComplex& mesh) {
 class CutOff {
  public:
   explicit CutOff(const RecordedPlane& recorded) : recorded_(recorded) {
-    std::vector<PlaneGrid::Box> discs;
+    std::vector<PlaneBoxes::Box> discs;
     for (const auto& [edge, segment] : recorded.final.segment_of()) {
       const auto& [a, b] = edge;
       const bool at_input = std::min(a, b) < recorded.graph().vertices.size();
@@ -140,13 +140,13 @@ class CutOff {
       const double r = recorded.exact.distance(a, b) * 0.51;
       discs.push_back({{x - r, y - r}, {x + r, y + r}});
     }
-    grid_ = PlaneGrid(discs);
+    discs_ = PlaneBoxes(discs);
   }
 
   bool encroached_by(Index v) {
     const auto& p = recorded_.points()[v];
     bool found = false;
-    grid_.visit({{p.dx, p.dy}, {p.dx, p.dy}}, [&](std::uint32_t e) {
+    discs_.visit({{p.dx, p.dy}, {p.dx, p.dy}}, [&](std::uint32_t e) {
       found = found || recorded_.exact.encroaches(edges_[e].first, v, edges_[e].second);
     });
     return found;
@@ -155,7 +155,7 @@ class CutOff {
  private:
   const RecordedPlane& recorded_;
   std::vector<PlaneEdge> edges_;
-  PlaneGrid grid_;
+  PlaneBoxes discs_;
 };
 
 void check_vertices(const RecordedPlane& recorded, VerifyReport& report) {

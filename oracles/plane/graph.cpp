@@ -11,8 +11,8 @@ namespace tetproof {
 using delmesher::Insideness;
 using Index = PlanePoints::Index;
 
-PlaneGrid::Box box_of(const std::vector<const PlanePoints::Point*>& points, double margin) {
-  PlaneGrid::Box result{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+PlaneBoxes::Box plane_box(const std::vector<const PlanePoints::Point*>& points, double margin) {
+  PlaneBoxes::Box result{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
   for (const PlanePoints::Point* p : points) {
     result.low = {std::min(result.low[0], p->dx), std::min(result.low[1], p->dy)};
     result.high = {std::max(result.high[0], p->dx), std::max(result.high[1], p->dy)};
@@ -36,10 +36,10 @@ PlaneGraph::PlaneGraph(const delmesher::PlanarGraph& graph) : graph_(graph) {
     }
   }
   if (!graph.vertices.empty()) diagonal_ = std::hypot(high[0] - low[0], high[1] - low[1]);
-  std::vector<PlaneGrid::Box> boxes;
-  for (const auto& [a, b] : graph.segments) boxes.push_back(box_of({&vertex(a), &vertex(b)}, 0));
-  for (Index v = 0; v < graph.vertices.size(); ++v) boxes.push_back(box_of({&vertex(v)}, 0));
-  near_ = PlaneGrid(boxes);
+  std::vector<PlaneBoxes::Box> boxes;
+  for (const auto& [a, b] : graph.segments) boxes.push_back(plane_box({&vertex(a), &vertex(b)}, 0));
+  for (Index v = 0; v < graph.vertices.size(); ++v) boxes.push_back(plane_box({&vertex(v)}, 0));
+  near_ = PlaneBoxes(boxes);
   cut_into_pieces();
   find_rings();
 }
@@ -52,7 +52,7 @@ void PlaneGraph::cut_into_pieces() {
     const Index a = graph_.segments[s][0], b = graph_.segments[s][1];
     if (!seen.insert(std::minmax(a, b)).second) continue;
     std::vector<std::pair<mpq_class, Index>> on = {{0, a}, {1, b}};
-    near_vertices(box_of({&vertex(a), &vertex(b)}, 0), [&](Index v) {
+    near_vertices(plane_box({&vertex(a), &vertex(b)}, 0), [&](Index v) {
       if (v == a || v == b || points_.orient(a, b, v) != 0) return;
       mpq_class t = points_.parameter(v, a, b);
       if (t > 0 && t < 1) on.emplace_back(std::move(t), v);
@@ -155,7 +155,7 @@ bool PlaneGraph::on_segment(const std::array<double, 2>& at) {
 
 double PlaneGraph::feature_size(Index v, double most) {
   double least = HUGE_VAL;
-  const PlaneGrid::Box box = box_of({&vertex(v)}, most);
+  const PlaneBoxes::Box box = plane_box({&vertex(v)}, most);
   near_vertices(box, [&](Index u) {
     if (u != v) least = std::min(least, points_.distance(v, u));
   });

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/delmesher_plane.h"
-#include "oracles/plane/grid.h"
+#include "oracles/plane/boxes.h"
 #include "oracles/plane/points.h"
 
 namespace tetproof {
@@ -51,17 +51,15 @@ class PlaneGraph {
   // units, if it is at most `most`; else some larger number.
   double feature_size(Index v, double most);
 
-  // Calls meet(segment) or meet(vertex) for each whose box meets the given one, and for some
-  // others. One search at a time: meet may not search again, as feature_size, inside_by_ray and
-  // on_segment do.
+  // Calls meet(segment) or meet(vertex) for each whose box meets the given one.
   template <class Meet>
-  void near_segments(const PlaneGrid::Box& box, Meet&& meet) {
+  void near_segments(const PlaneBoxes::Box& box, Meet&& meet) {
     near_.visit(box, [&](Index item) {
       if (item < graph_.segments.size()) meet(item);
     });
   }
   template <class Meet>
-  void near_vertices(const PlaneGrid::Box& box, Meet&& meet) {
+  void near_vertices(const PlaneBoxes::Box& box, Meet&& meet) {
     near_.visit(box, [&](Index item) {
       if (item >= graph_.segments.size()) meet(static_cast<Index>(item - graph_.segments.size()));
     });
@@ -74,7 +72,7 @@ class PlaneGraph {
 
   const delmesher::PlanarGraph& graph_;
   PlanePoints points_;
-  PlaneGrid near_;  // the segments, then the vertices
+  PlaneBoxes near_;  // the segments, then the vertices
   std::vector<Piece> pieces_;
   std::vector<std::vector<Index>> pieces_at_, pieces_of_;
   double largest_ = 0, diagonal_ = 0;
@@ -83,6 +81,6 @@ class PlaneGraph {
 };
 
 // The smallest box of some points, a little larger so that rounding hides nothing.
-PlaneGrid::Box box_of(const std::vector<const PlanePoints::Point*>& points, double margin);
+PlaneBoxes::Box plane_box(const std::vector<const PlanePoints::Point*>& points, double margin);
 
 }  // namespace tetproof

@@ -51,12 +51,11 @@ double verify_record(PlaneGraph& input, const PlaneFile& file, const PlaneRecord
                                   exact,
                                   {record.refined, record.refined_edges, exact},
                                   {record.final, record.final_edges, exact}};
-  oracles::check_plane_complex(recorded.refined, input, "refined-", report);
-  if (!promise.approximate) {
-    oracles::check_plane_complex(recorded.final, input, "exact-", report);
-    oracles::check_plane_final(recorded, report);
-  }
-  oracles::check_plane_refined(recorded, report);
+  const bool refined = oracles::check_plane_complex(recorded.refined, input, "refined-", report);
+  const bool final =
+      promise.approximate || oracles::check_plane_complex(recorded.final, input, "exact-", report);
+  if (final && !promise.approximate) oracles::check_plane_final(recorded, report);
+  if (final && refined) oracles::check_plane_refined(recorded, report);
   tell(oracles::check_plane_same_mesh(recorded, file));
   double deviation = 0;
   tell(oracles::check_plane_rounding(recorded, file, options.declared_deviation * input.diagonal(),

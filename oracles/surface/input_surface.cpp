@@ -252,8 +252,12 @@ void InputSurface::find_normals(bool planar, const ExactPoints& points) {
   for (Index f = 0; f < facets_.size(); ++f) {
     Facet& facet = facets_[f];
     double largest = -1;
+    facet.largest = 0;
     for (const Index t : all.of(f)) {
       const auto& [a, b, c] = triangles_[t];
+      for (const Index v : triangles_[t]) {
+        facet.largest = std::max(facet.largest, largest_component(points.nearest(v)));
+      }
       const IntervalVector area = exact::rough_area2(points, a, b, c);
       double size = 0;
       for (const Interval& x : area) size = std::max(size, std::fabs(x.middle()));

@@ -2,6 +2,7 @@
 // whether a point is inside.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -14,6 +15,7 @@
 #include "oracles/base/box_tree.h"
 #include "oracles/base/exact_points.h"
 #include "oracles/base/triangle_sums.h"
+#include "oracles/base/vectors.h"
 #include "oracles/files/polyhedron.h"
 
 namespace tetproof::oracles {
@@ -35,6 +37,7 @@ class InputSurface {
     // If it was made of facets that are not in one plane: the sum of its area vectors. Exact
     // numbers of all facets would take more memory than all the rest.
     std::shared_ptr<const ExactVector> sum{};
+    double largest = 0;  // coordinate of its corners, without sign
     // The width of the slab that it lies in, in input units, if it was made of several.
     double slab = 0;
 
@@ -103,6 +106,15 @@ class InputSurface {
   // The triangle across the edge from corner i to corner i + 1.
   Index neighbour(Index triangle, int i) const { return neighbours_[triangle][i]; }
   const std::vector<Edge>& edges() const { return edges_; }
+  // Where a facet is, rounding moves a point by at most half of this in each coordinate, however
+  // large the surface is elsewhere: the unit in the last place of its largest coordinate, or of the
+  // largest one as given, if that is larger. At an edge that of the smaller facet.
+  double ulp_on(Index facet, double largest_given = 0) const {
+    return unit_in_last_place(std::max(facets_[facet].largest, largest_given));
+  }
+  double ulp_on(const Edge& edge, double largest_given = 0) const {
+    return std::min(ulp_on(edge.left, largest_given), ulp_on(edge.right, largest_given));
+  }
   const std::vector<Index>& used_vertices() const { return used_vertices_; }
   const ExactSum& volume6() const { return volume6_; }
   double diagonal() const { return diagonal_; }

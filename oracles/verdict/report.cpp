@@ -155,7 +155,7 @@ std::string summary(const VerifyReport& report) {
   if (report.verdict == Verdict::rounded || report.verdict == Verdict::deviating) {
     const std::string ulps =
         report.deviation_ulps > 0  // of an envelope they are not known
-            ? " = " + number(report.deviation_ulps) + " ulp of the largest coordinate"
+            ? ", " + number(report.deviation_ulps) + " ulp of the largest coordinate there"
             : "";
     line.add("deviation " + number(report.deviation) + ulps);
     line.add(number(report.deviation_share) + " of the diagonal");

@@ -52,6 +52,15 @@ struct OracleReport {
 // cut off, so the file alone does not show whether it is a mesh of this input at all.
 OracleReport surface_not_decided(const std::string& oracle);
 
+// Of so many violations of a complex: what others ask of elements that lie on each other takes time
+// by the square of their number, and nobody reads it.
+inline constexpr std::uint64_t kHopeless = 1000;
+inline bool is_hopeless(OracleReport& complex) {
+  if (complex.violations <= kHopeless) return false;
+  complex.notes.emplace_back("it fails so often that nothing else was asked");
+  return true;
+}
+
 enum class Verdict : std::uint8_t { exact, rounded, deviating, undecided, broken };
 
 const char* verdict_name(Verdict verdict);
@@ -60,7 +69,7 @@ struct VerifyReport {
   Verdict verdict = Verdict::broken;
   double deviation = 0;  // upper bound for that of the surface as written, in input units
   double slab = 0;       // width of the widest that holds a facet made of several, in input units
-  // The largest in ulps: of the largest coordinate.
+  // The largest in ulp of the largest coordinate of the facet (in the plane, of all; 0: unknown).
   double deviation_ulps = 0;
   double deviation_share = 0;  // as a fraction of the bounding-box diagonal
   double planar_share = 0;  // how far facets may be from planar by the promise, as such a fraction

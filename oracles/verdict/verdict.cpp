@@ -4,8 +4,7 @@
 
 namespace tetproof::oracles {
 
-void conclude(double ulp, double diagonal, VerifyReport& report) {
-  report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
+void conclude(double diagonal, VerifyReport& report) {
   report.deviation_share = diagonal > 0 ? report.deviation / diagonal : 0;
   if (report.any_failed()) {
     report.verdict = Verdict::broken;

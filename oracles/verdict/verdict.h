@@ -35,9 +35,8 @@ struct VerifyOptions {
 // A deviation of so many ulp is that of rounding.
 inline constexpr double kRoundedUlps = 4;
 
-// Sets the verdict, and the deviation in units of `ulp` and as a share of the diagonal; of both 0
-// stands for unknown.
-void conclude(double ulp, double diagonal, VerifyReport& report);
+// Sets the verdict, and the deviation as a share of the diagonal; 0 stands for unknown.
+void conclude(double diagonal, VerifyReport& report);
 
 // A verification fails if the mesh is broken or deviates more than declared.
 bool failed(const VerifyReport& report, const VerifyOptions& options);

@@ -124,6 +124,9 @@ const Lie kForeign[] = {
        t.sample.mesh.labels.assign(t.sample.mesh.boundary.size(), 0);
        t.sample.mesh.labels.back() = 4;
      }},
+    {"a listed boundary triangle turned over", "boundary-list",
+     [](Told& t) { std::swap(t.sample.mesh.boundary.back()[0], t.sample.mesh.boundary.back()[1]); },
+     "not caught by it"},
     {"no boundary triangles in the file", "same-mesh",
      [](Told& t) {
        t.sample.mesh.boundary.clear();

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/files/edge_nodes.h"
+#include "oracles/mesh/conformity.h"
 #include "oracles/mesh/tet_complex.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
@@ -298,13 +300,21 @@ TEST(FileAlone, ListsTrianglesWhereTheInputHasLabels) {
   EXPECT_EQ(verify(sample.input, sample.mesh, nullptr, {}, report), "");
   ASSERT_NE(report.find("boundary-list"), nullptr);
   EXPECT_EQ(report.verdict, Verdict::broken);
+  const auto judged = [&] {
+    EXPECT_EQ(verify(sample.input, sample.mesh, nullptr, {}, report), "");
+    EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+    return report.unproven;
+  };
+  const std::vector<std::string> lost = {"labels of the input (the file has none)"};
   sample.mesh.lists_boundary = false;  // the format cannot
-  EXPECT_EQ(verify(sample.input, sample.mesh, nullptr, {}, report), "");
-  EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+  EXPECT_EQ(judged(), lost);
+  sample.mesh.boundary = samples::cube().mesh.boundary;  // nor give them labels
+  sample.mesh.facets.clear();
+  EXPECT_EQ(judged(), lost);
+  sample.mesh.boundary.clear();
   sample.mesh.lists_boundary = true;
   for (auto& label : sample.input.labels) label = 7;  // says nothing
-  EXPECT_EQ(verify(sample.input, sample.mesh, nullptr, {}, report), "");
-  EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+  EXPECT_EQ(judged(), std::vector<std::string>{});
 }
 
 TEST(FileAlone, ListsTrianglesThatLookOutwards) {
@@ -333,11 +343,73 @@ TEST(FileAlone, ListsTrianglesThatLookOutwards) {
       }
       VerifyReport report;
       EXPECT_EQ(verify(sample.input, mesh, nullptr, {}, report), "");
-      // Other programs promise no orientation of what they list.
+      // Other programs promise no orientation of what they list, but the first line tells.
       EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
-      EXPECT_EQ(report.find("boundary-list")->notes.empty(), !inwards) << to_text(report);
+      ASSERT_EQ(report.unproven.size(), inwards ? 1U : 0U) << to_text(report);
+      if (!inwards) continue;
+      EXPECT_EQ(report.find("boundary-list")->figure(kTurned), mesh.boundary.size());
+      std::swap(mesh.boundary[0][1], mesh.boundary[0][2]);
+      EXPECT_EQ(verify(sample.input, mesh, nullptr, {}, report), "");
+      EXPECT_EQ(report.find("boundary-list")->figure(kTurned), mesh.boundary.size() - 1);
     }
   }
+}
+
+// A cube that is moved, beside one so far away that the doubles there are units apart.
+VerifyReport report_on_moved_cube(double by) {
+  samples::Sample cube = samples::cube();
+  const auto inputs = static_cast<Index>(cube.input.vertices.size()),
+             vertices = static_cast<Index>(cube.mesh.vertices.size());
+  const auto add_far = [](std::vector<Position>& list, std::size_t count) {
+    for (std::size_t v = 0; v < count; ++v) {
+      list.push_back({0x1p52 + 8 * list[v][0], 8 * list[v][1], 8 * list[v][2]});
+    }
+  };
+  add_far(cube.input.vertices, inputs);
+  add_far(cube.mesh.vertices, vertices);
+  for (std::size_t t = 0, count = cube.input.triangles.size(); t < count; ++t) {
+    const auto [a, b, c] = cube.input.triangles[t];
+    cube.input.triangles.push_back({a + inputs, b + inputs, c + inputs});
+  }
+  for (std::size_t t = 0, count = cube.mesh.tetrahedra.size(); t < count; ++t) {
+    const auto [a, b, c, d] = cube.mesh.tetrahedra[t];
+    cube.mesh.tetrahedra.push_back({a + vertices, b + vertices, c + vertices, d + vertices});
+  }
+  cube.mesh.regions.clear();
+  cube.mesh.boundary.clear();
+  cube.mesh.labels.clear();
+  cube.mesh.facets.clear();
+  for (std::size_t v = 0; v < vertices; ++v) cube.mesh.vertices[v][0] += by;
+  VerifyReport report;
+  EXPECT_EQ(verify(cube.input, cube.mesh, nullptr, {}, report), "");
+  return report;
+}
+
+TEST(FileAlone, IsRoundedWhereItIsAndNotWhereItIsLargest) {
+  EXPECT_EQ(report_on_moved_cube(0).verdict, Verdict::exact);
+  const VerifyReport rounded = report_on_moved_cube(3 * 0x1p-52);
+  EXPECT_EQ(rounded.verdict, Verdict::rounded) << to_text(rounded);
+  EXPECT_NEAR(rounded.deviation_ulps, 3, 1e-9);
+  for (const double by : {5 * 0x1p-52, 0x1p-30}) {
+    const VerifyReport report = report_on_moved_cube(by);
+    EXPECT_EQ(report.verdict, Verdict::deviating) << to_text(report);
+    EXPECT_NEAR(report.deviation_ulps, by * 0x1p52, by * 0x1p32);
+  }
+  // Less than 4 ulp of the largest coordinate.
+  EXPECT_EQ(report_on_moved_cube(3.9).verdict, Verdict::broken);
+}
+
+TEST(FileAlone, HasNodesInTheMiddleOfEachEdgeWhereThisIs) {
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0x1p52, 0, 0}, {0x1p52 + 8, 0, 0}};
+  const auto judged = [&](double near, double far, double given) {
+    mesh.edge_nodes = {{{0, 1}, {0.5 + near, 0, 0}}, {{2, 3}, {0x1p52 + 4 + far, 0, 0}}};
+    return check_edge_nodes(mesh, 0, given).violations;
+  };
+  EXPECT_EQ(judged(4 * 0x1p-52, 4, 0), 0U);
+  EXPECT_EQ(judged(5 * 0x1p-52, 4, 0), 1U);
+  EXPECT_EQ(judged(0, 5, 0), 1U);
+  EXPECT_EQ(judged(4 * 0x1p-42, 4, 1024), 0U);  // as given, where both are moved
 }
 
 TEST(FileAlone, SaysFirstWhatItDoesNotShow) {

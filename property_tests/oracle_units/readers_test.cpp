@@ -311,6 +311,17 @@ TEST(TextReader, ALieInACompressedFileExhaustsNoMemory) {
   std::remove(file.c_str());
 }
 
+// What unpacks to far more than a mesh could is rejected before it takes the memory.
+TEST(TextReader, AFileUnpacksToNoMoreThanAMeshDoes) {
+  const std::string file = testing::TempDir() + "many.gz";
+  std::ofstream(file, std::ios::binary)
+      << packed_by_zlib(std::string(80 << 20, ' '), Wrapping::gzip);
+  EXPECT_THROW(oracles::read_whole_file(file), ReadError);
+  EXPECT_NO_THROW(check_unpacked("file", 1000000, (1U << 26) + 64000000));
+  EXPECT_THROW(check_unpacked("file", 1000000, (1U << 26) + 64000064), ReadError);
+  std::remove(file.c_str());
+}
+
 // zlib's own reader of files takes what follows for nothing. Members may follow each other.
 TEST(TextReader, AfterWhatIsCompressedNothingFollows) {
   const std::string file = testing::TempDir() + "followed.gz";

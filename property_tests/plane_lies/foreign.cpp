@@ -77,6 +77,15 @@ const Lie kForeign[] = {
      [](Told& t) { t.file.triangles[1] = t.file.triangles[0]; }},
     {"the corners of two triangles of the file exchanged", "same-mesh",
      [](Told& t) { std::swap(t.file.triangles[0][0], t.file.triangles[7][1]); }},
+    {"one triangle of the file two thousand times", "complex",
+     [](Told& t) {
+       t.file.triangles.resize(t.file.triangles.size() + 2000, t.file.triangles[0]);
+       t.file.inside.resize(t.file.triangles.size(), t.file.inside[0]);
+     }},
+    {"one refined triangle two thousand times", "refined-complex",
+     [](Told& t) { t.record.refined.resize(t.record.refined.size() + 2000, t.record.refined[0]); }},
+    {"one final triangle two thousand times", "exact-complex",
+     [](Told& t) { t.record.final.resize(t.record.final.size() + 2000, t.record.final[0]); }},
     {"a triangle of the file missing", "same-mesh",
      [](Told& t) {
        t.file.triangles.pop_back();
