@@ -4,6 +4,8 @@
 Usage: docs/pictures/draw.py DELMESHER FOLDER     Without a screen: xvfb-run -a. Needs `ci/install_packages pictures`. FOLDER gets surfaces, meshes and pictures.
 
 gear.*     a surface, and its mesh cut open, tetrahedra coloured by their smallest dihedral angle
+sizes.*, budgets.*, surface.*, improve.*  its meshes by the options of these guides
+names.*    its faces, as `--label-by-angle` labels them
 stages.*   a surface, what chamfering leaves of it, the refined mesh of that, the final mesh
 defects.*  a surface with defects, as `delmesher check --defects FILE.vtu` colours it
 """
@@ -173,19 +175,63 @@ def run(delmesher, *words):
     subprocess.run([delmesher, *words, "-q"], check=True)
 
 
-def draw_gear(delmesher, folder):
-    surface, mesh = (os.path.join(folder, "gear" + e) for e in (".off", ".vtu"))
-    models.write_off(surface, models.gear())
-    run(delmesher, surface, "-o", mesh)
-    given, made = read_off(surface), read_mesh(mesh)
+GEAR = (0, 0, 0.19), (0.9, -3, 1.7), 0.86  # the camera
+GUIDES = {  # what makes the two meshes of each picture
+    "sizes": ("--max-edge 0.15", "--max-edge 0.15 --size-field sizes.txt"),
+    "budgets": ("--surface split", "--budget 3000"),
+    "surface": ("--surface keep", "--surface split"),
+    "improve": ("--surface split --improve off --slivers off", "improve"),
+}
+
+
+def draw_pair(folder, name, left, right, width=1200, height=440):
+    """Two panels of the gear, each with its actors by page and a caption."""
+    for light, page in PAGES.items():
+        window = open_window(width, height)
+        for at, (actors, caption) in ((0, left), (0.44, right)):
+            panel(window, at, at + 0.44, actors(page), page, GEAR, caption)
+        add_scale(window, 0.88, page, "smallest dihedral\nangle, degrees" if width > 1200 else "smallest\ndihedral\nangle")
+        save(window, os.path.join(folder, "%s-%s.png" % (name, light)))
+
+
+def cut_gear(path, caption):
+    made = read_mesh(path)
     outside, inside, quality = cut(made, lambda c: c[:, 1] > -0.3)
-    camera = (0, 0, 0.19), (0.9, -3, 1.7), 0.86
-    for name, page in PAGES.items():
-        window = open_window(1600, 580)
-        panel(window, 0, 0.44, [actor(*given, page[2])], page, camera, "surface")
-        panel(window, 0.44, 0.88, [actor(made[0], outside, page[2], line=0.7), actor(made[0], inside, page[2], quality, line=0.7)], page, camera, "mesh, cut open")
-        add_scale(window, 0.88, page, "smallest dihedral\nangle, degrees")
-        save(window, os.path.join(folder, "gear-%s.png" % name))
+    return lambda page: [actor(made[0], outside, page[2], line=0.7), actor(made[0], inside, page[2], quality, line=0.7)], caption
+
+
+def draw_gear(delmesher, folder):
+    surface, mesh, sizes = (os.path.join(folder, name) for name in ("gear.off", "gear.vtu", "sizes.txt"))
+    models.write_off(surface, models.gear())
+    with open(sizes, "w") as file:
+        file.write("0.3 -0.4 0.3 0.03\n")
+    run(delmesher, surface, "-o", mesh, "--surface", "split")
+    draw_pair(folder, "gear", (lambda page: [actor(*read_off(surface), page[2])], "surface"), cut_gear(mesh, "mesh, cut open"), 1600, 580)
+    for name, captions in GUIDES.items():
+        panels = []
+        for caption in captions:
+            made = os.path.join(folder, "%s%d.vtu" % (name, len(panels)))
+            given = ["improve", os.path.join(folder, "improve0.vtu")] if caption == "improve" else [surface, *caption.replace("sizes.txt", sizes).split()]
+            run(delmesher, *given, "-o", made)
+            panels.append(cut_gear(made, caption))
+        draw_pair(folder, name, *panels)
+
+
+def draw_names(delmesher, folder):
+    surface, faces = os.path.join(folder, "gear.off"), os.path.join(folder, "faces.vtu")
+    subprocess.run([delmesher, "check", surface, "--label-by-angle", "30", "--defects", faces], check=True, stdout=subprocess.DEVNULL)
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(faces)
+    reader.Update()
+    grid = reader.GetOutput()
+    labels = vtk_to_numpy(grid.GetCellData().GetArray("label"))
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
+    for light, page in PAGES.items():
+        window = open_window(700, 440)
+        palette = [(0.10, 0.53, 0.65), (0.99, 0.84, 0.35), (0.55, 0.82, 0.55), (0.96, 0.49, 0.15), (0.75, 0.60, 0.80)]
+        panel(window, 0, 1, [actor(vtk_to_numpy(grid.GetPoints().GetData()), corners[labels % 5 == k], palette[k], line=0.7) for k in range(5)],
+              page, GEAR, "--label-by-angle 30")
+        save(window, os.path.join(folder, "names-%s.png" % light))
 
 
 def draw_stages(delmesher, folder):
@@ -244,6 +290,7 @@ def main():
         sys.exit(__doc__)
     os.makedirs(sys.argv[2], exist_ok=True)
     draw_gear(*sys.argv[1:])
+    draw_names(*sys.argv[1:])
     draw_stages(*sys.argv[1:])
     draw_defects(*sys.argv[1:])
 
