@@ -86,6 +86,13 @@ def dirty_spheres():
     return points + more, triangles
 
 
+def turned(surface):
+    """In another position, coordinates rounded to five decimals."""
+    points, triangles = surface
+    axes = (0.96, 0, 0.28), (0.0784, 0.96, -0.2688), (-0.2688, 0.28, 0.9216)
+    return [tuple(round(sum(a * x for a, x in zip(axis, p)), 5) for axis in axes) for p in points], triangles
+
+
 def write_off(path, surface):
     points, triangles = surface
     with open(path, "w") as file:

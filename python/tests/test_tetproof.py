@@ -393,13 +393,15 @@ def test_files(tmp_path):
         tetproof.write(tmp_path / "cube.doc", mesh)
 
 
-def test_the_readme_of_the_project(tmp_path, monkeypatch):
-    with open(os.path.join(os.path.dirname(__file__), "..", "..", "README.md"), encoding="utf-8") as stream:
+@pytest.mark.parametrize("page, written", [("README.md", "part.msh"), ("python/README.md", "part.inp")])
+def test_what_pages_show(tmp_path, monkeypatch, page, written):
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", page), encoding="utf-8") as stream:
         snippet = re.search(r"^```python\n(.*?)^```", stream.read(), re.M | re.S).group(1)
     monkeypatch.chdir(tmp_path)
     tetproof.write("part.stl", tetproof.Surface(POINTS, TRIANGLES, LABELS))
-    exec(snippet, {})
-    assert len(tetproof.read_mesh("part.msh").tetrahedra) > 0
+    made = {}
+    exec(snippet, made)
+    assert len(made["mesh"].tetrahedra) > 0 and os.path.getsize(written) > 0
 
 
 def test_files_are_given_by_name(tmp_path):
