@@ -1,7 +1,5 @@
 #include "corpus/union/points.h"
 
-#include <cmath>
-
 namespace tetproof::unite {
 namespace {
 
@@ -12,18 +10,12 @@ double nearest(const Number& x) {
   return x - Number(low) <= Number(high) - x ? low : high;
 }
 
-double coordinate(const Exact::FT& x, double grid) {
-  const double near = nearest(CGAL::exact(x));
-  const double multiple = grid > 0 ? std::nearbyint(near / grid) * grid : near;
-  return std::isfinite(multiple) ? multiple : near;
-}
-
 }  // namespace
 
-Position Points::rounded(Index i, double grid) const {
+Position Points::rounded(Index i) const {
   if (is_given(i)) return given_[i];
   const Exact::Point_3 p = (*this)[i];
-  return {coordinate(p.x(), grid), coordinate(p.y(), grid), coordinate(p.z(), grid)};
+  return {nearest(CGAL::exact(p.x())), nearest(CGAL::exact(p.y())), nearest(CGAL::exact(p.z()))};
 }
 
 Position Points::approximate(Index i) const {

@@ -38,8 +38,8 @@ class Points {
     if (fresh) made_.push_back(p);
     return at->second;
   }
-  // The nearest doubles; of a new point, if `grid` is not 0, the nearest multiples of it.
-  Position rounded(Index i, double grid) const;
+  // The nearest doubles.
+  Position rounded(Index i) const;
   // Something near it.
   Position approximate(Index i) const;
 

@@ -302,7 +302,12 @@ void Separator::check() {
 }
 
 Separation Separator::run() {
-  while (halve_edges()) poll_();
+  try {
+    while (halve_edges()) poll_();
+  } catch (const Twisted& twisted) {
+    result_.place = soup_.vertices[twisted.vertex];
+    return result_;
+  }
   make_copies();
   aim_all();
   result_.done = move_all() && is_near();

@@ -8,6 +8,7 @@
 
 #include "corpus/union/arrangement.h"
 #include "corpus/union/flat_sides.h"
+#include "corpus/union/joining.h"
 #include "corpus/union/separate.h"
 #include "corpus/union/winding.h"
 #include "oracles/cgal/surface_opinion.h"
@@ -71,9 +72,9 @@ class Uniter {
 
  private:
   // Rounding may push points through triangles that are closer than that. Each further round moves
-  // new points only, and fewer of them. From the third on they go to a grid that becomes coarser,
-  // so that points near each other become one.
-  static constexpr int kRounds = 12, kNearest = 2;
+  // new points only, and fewer of them. What meets and is near each other becomes one first, within
+  // a reach that grows.
+  static constexpr int kRounds = 12;
 
   bool take(const Surface& surface);
   void turn_if_inside_out();
@@ -84,7 +85,7 @@ class Uniter {
   }
   std::vector<Piece> kept_pieces(const Arrangement& arrangement);
   Surface rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces);
-  double grid() const;
+  double reach() const;
   bool move_apart(const std::string& where);
   void judge();
   void ask_others() const;
@@ -103,6 +104,7 @@ class Uniter {
   Poll poll_;
   Soup soup_;
   UnionResult result_;
+  bool settled_ = false;  // did the last round only confirm what was there?
 };
 
 bool Uniter::take(const Surface& surface) {
@@ -135,6 +137,7 @@ std::vector<Piece> Uniter::kept_pieces(const Arrangement& arrangement) {
     Piece piece = arrangement.pieces[i];
     const bool front = is_inside(windings[i]), back = is_inside(windings[i] + piece.times);
     if (std::min(windings[i], windings[i] + piece.times) < 0) ++result_.counts.inside_out;
+    settled_ = settled_ && !front && back;
     if (front == back) continue;
     if (front) std::swap(piece.corners[1], piece.corners[2]);
     piece.times = 1;
@@ -143,11 +146,9 @@ std::vector<Piece> Uniter::kept_pieces(const Arrangement& arrangement) {
   return kept;
 }
 
-double Uniter::grid() const {
-  const int coarser = result_.counts.rounds - kNearest;
-  if (coarser <= 0) return 0;
-  constexpr int kDigits = 52;
-  return std::ldexp(1, std::ilogb(largest_coordinate(soup_)) - kDigits + 2 * coarser);
+double Uniter::reach() const {
+  constexpr int kDigits = 48;
+  return std::ldexp(1, std::ilogb(largest_coordinate(soup_)) - kDigits + 2 * result_.counts.rounds);
 }
 
 Surface Uniter::rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces) {
@@ -161,7 +162,7 @@ Surface Uniter::rounded(const Arrangement& arrangement, const std::vector<Piece>
     for (const Index v : piece.corners) {
       if (done[v] || points.is_given(v)) continue;
       done[v] = true;
-      const Position at = points.rounded(v, grid());
+      const Position at = points.rounded(v);
       surface.vertices[v] = at;
       const auto off = points[v] - Exact::Point_3(at[0], at[1], at[2]);
       largest = std::max(largest, std::sqrt(CGAL::to_double(off.squared_length())));
@@ -185,7 +186,9 @@ bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
             place(arrangement.points.approximate(open.place)) +
             ": no union; delmesher repair turns triangles round, with --fill it closes holes");
   }
+  settled_ = pairs.empty();
   std::vector<Piece> kept = kept_pieces(arrangement);
+  if (settled_ && !first) --counts.rounds;
   const std::size_t dropped = arrangement.pieces.size() - kept.size();
   counts.flat_vertices += restore_flat_sides(soup_, arrangement.points, kept, poll_);
   if (find_open_edges(kept).count > 0) throw InternalError("the union is open");
@@ -203,18 +206,23 @@ bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
   return true;
 }
 
-// Until rounding has changed nothing that matters. The first round takes place in any case, for
-// bodies inside of others.
+// Until nothing meets and nothing is dropped or turned round: rounding may do both around an edge
+// of several bodies.
 bool Uniter::unite_pieces() {
   while (true) {
-    const std::vector<MeetingPair> pairs = meeting_pairs(soup_, poll_);
-    if (result_.counts.rounds > 0 && pairs.empty()) return true;
+    std::vector<MeetingPair> pairs = meeting_pairs(soup_, poll_);
+    if (pairs.empty() && settled_) return true;
     if (result_.counts.rounds == kRounds) {
-      const MeetingPair& pair = pairs.front();
       return fail(UnionCode::imprecise,
-                  "the union has " + counted(pairs.size(), "pair", "pairs") +
-                      " of triangles that are too close for doubles, the first at " +
-                      place(soup_.vertices[soup_.triangles[pair.a][0]]));
+                  pairs.empty()
+                      ? "the union has parts that are too thin for doubles"
+                      : "the union has " + counted(pairs.size(), "pair", "pairs") +
+                            " of triangles that are too close for doubles, the first at " +
+                            place(soup_.vertices[soup_.triangles[pairs.front().a][0]]));
+    }
+    if (!pairs.empty()) {
+      result_.counts.largest_move += join_near(soup_, pairs, reach(), poll_);
+      pairs = meeting_pairs(soup_, poll_);
     }
     if (!cut_and_round(pairs)) return false;
   }
@@ -248,7 +256,7 @@ void Uniter::tell_result() {
                          number(counts.volume_after));
   if (counts.new_points == 0 && counts.largest_move == 0) return;
   result_.done.push_back(
-      "new points moved by at most " + number(counts.largest_move) + " by rounding" +
+      "points moved by at most " + number(counts.largest_move) + " by rounding" +
       (counts.rounds > 1 ? ", in " + std::to_string(counts.rounds) + " rounds" : ""));
 }
 

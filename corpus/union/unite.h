@@ -9,18 +9,20 @@
 // points are one, and pieces that cancel are gone. A patch is a set of pieces that are connected
 // over edges of two. One ray of each patch counts the winding number in front of it, and so the one
 // behind it. The patches with the inside on exactly one side are the union. All of this is exact.
-// Then the new points are rounded to doubles, and what comes out goes the same way once more until
-// no two of its triangles meet outside of a vertex or an edge that both have.
+// Before it, parts of triangles that meet become one where they are a few ulp of the largest
+// coordinate from each other (joining.h): meant to coincide, they would cross in countless points.
+// After it, the new points are rounded to doubles, and what comes out goes the same way once more
+// until no two of its triangles meet outside of a vertex or an edge that both have.
 //
 // Laws:
-// - Before rounding, a point is inside the result exactly if its winding number is positive (or not
-//   zero: Inside).
+// - Before rounding, and if nothing was joined, a point is inside the result exactly if its winding
+//   number is positive (or not zero: Inside).
 // - The result closes up, with all normals outwards. No two triangles meet outside of a common
 //   vertex or edge, none is without area. It is manifold but where parts of it touch, which is
 //   counted; if UnionOptions::separate says so, they are moved apart (separate.h), and it is
 //   manifold. If it is manifold, CGAL's polygon mesh processing and OpenMesh find it valid.
 // - Vertices that are left are where they were, to the last bit; new ones are where their exact
-//   place is rounded to, and `largest_move` bounds the distance.
+//   place is rounded to, and `largest_move` bounds how far these and what was joined have moved.
 // - A triangle that meets no other and is at no edge of more than two is the same triangle if it is
 //   kept. Every other one has the label of triangles of its plane that cover it.
 // - Around other triangles no vertex is left within a flat side of one label, or on a straight edge
@@ -77,7 +79,7 @@ struct UnionCounts {
   double largest_separation = 0;               // how far a vertex was moved for that, at most
   int rounds = 0;                              // of cutting and rounding
   double volume_before = 0, volume_after = 0;  // before: overlaps count once for each body
-  double largest_move = 0;                     // by rounding
+  double largest_move = 0;                     // by joining and rounding
 };
 
 struct UnionResult {

@@ -57,7 +57,7 @@ std::vector<Wedge> wedges_at(const Soup& soup, std::span<const EdgeUse> uses) {
   std::vector<Wedge> wedges;
   for (std::size_t i = 0; i < order.size(); i += 2) {
     if (order[i].forward || i + 1 == order.size() || !order[i + 1].forward) {
-      throw InternalError("a wedge of solid without a side");
+      throw Twisted{order[i].low};
     }
     wedges.push_back({order[i], order[i + 1]});
   }
