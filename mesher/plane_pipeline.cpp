@@ -62,6 +62,15 @@ InputGraph check(const PlanarGraph& input, Session& s, Recorder& recorder) {
   return graph;
 }
 
+// Triangles. Nobody who has many channels, each wide enough to be refined, thinks of so many.
+constexpr double kMostInChannels = 5e6;
+
+std::string too_many_in_channels(double predicted) {
+  return "about " + std::to_string(static_cast<std::uint64_t>(predicted / 1e6)) +
+         " million triangles are predicted in narrow channels between segments: a larger --tau "
+         "leaves more of these to the last step, --max-vertices N allows N vertices for them";
+}
+
 Chamfered filter_and_chamfer(const InputGraph& graph, Sparing& sparing, Session& s,
                              Recorder& recorder) {
   s.control.enter(Phase::chamfer);
@@ -75,8 +84,13 @@ Chamfered filter_and_chamfer(const InputGraph& graph, Sparing& sparing, Session&
   recorder.chamfered(result);
   // Of wedges and channels of all widths, in the mesh: 1.15 to 1.3 triangles for a square.
   constexpr double kPerSquare = 1.25, kPerVertex = 8;
-  if (s.options.tau > 0)
-    s.control.predict(kPerSquare * result.channel_squares + kPerVertex * graph.vertices);
+  if (s.options.tau > 0) {
+    const double in_channels = kPerSquare * result.channel_squares;
+    if (s.options.max_vertices == 0 && in_channels > kMostInChannels) {
+      throw Stopped{{StatusCode::limit_reached, too_many_in_channels(in_channels), Limit::size}};
+    }
+    s.control.predict(in_channels + kPerVertex * graph.vertices);
+  }
   return result;
 }
 
@@ -189,11 +203,10 @@ std::vector<std::string> hints_of(const GraphReport& report) {
 
 namespace delmesher {
 
-PlaneResult triangulate_polygon(const PlanarGraph& graph, const PlaneOptions& given) {
+PlaneResult triangulate_polygon(const PlanarGraph& graph, const PlaneOptions& options) {
   PlaneResult result;
-  PlaneOptions options = given;
-  if (options.max_vertices == 0) options.max_vertices = plane::default_limit(graph);
-  const auto limits = options::taken_from<Limits>(options);
+  auto limits = options::taken_from<Limits>(options);
+  if (limits.max_vertices == 0) limits.max_vertices = plane::default_limit(graph);
   base::Control control(limits);
   plane::Session session(options, control);
   plane::Recorder recorder(session, result);

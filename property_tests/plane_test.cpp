@@ -413,6 +413,43 @@ TEST(Plane, WedgesWithoutACornerAreBounded) {
   EXPECT_NE(narrow.warnings[0].find("too narrow"), std::string::npos);
 }
 
+// Every wedge of this fan is wide enough to be refined, and has hundreds of triangles; there are
+// thousands. So many are refused before the work, unless somebody says how many there may be.
+TEST(Plane, ManyWedgesTogetherAreBoundedByDefault) {
+  PlanarGraph graph = shapes::polygon({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}});
+  constexpr int kSpokes = 6000;
+  const auto hub = static_cast<std::uint32_t>(graph.vertices.size());
+  graph.vertices.push_back({0, 0});
+  for (int i = 0; i < kSpokes; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / kSpokes;
+    graph.segments.push_back({hub, static_cast<std::uint32_t>(graph.vertices.size())});
+    graph.vertices.push_back({std::cos(angle), std::sin(angle)});
+  }
+  Phase last = Phase::check;
+  PlaneOptions options;
+  options.progress = [&](const Progress& progress) {
+    last = progress.phase;
+    return true;
+  };
+  const PlaneResult bounded = triangulate_polygon(graph, options);
+  EXPECT_EQ(bounded.status.code, StatusCode::limit_reached);
+  EXPECT_EQ(bounded.status.limit, Limit::size);
+  EXPECT_EQ(last, Phase::chamfer);  // nothing was refined
+  for (const char* word : {"million triangles", "--tau", "--max-vertices"}) {
+    EXPECT_NE(bounded.status.message.find(word), std::string::npos) << word;
+  }
+  // The number that was allowed stops the refinement itself.
+  options.max_vertices = 20'000;
+  const PlaneResult allowed = triangulate_polygon(graph, options);
+  EXPECT_EQ(allowed.status.limit, Limit::size);
+  EXPECT_NE(last, Phase::chamfer);
+  options.max_vertices = 0;
+  options.tau = 3e-3;
+  const PlaneResult fewer = triangulate_polygon(graph, options);
+  EXPECT_TRUE(fewer.status.ok()) << fewer.status.message;
+  EXPECT_LT(fewer.mesh.triangles.size(), 1'000'000U);
+}
+
 // --- what repair_graph() mends
 
 // Segments between points of a grid cross, overlap, repeat each other, and some have no length; a

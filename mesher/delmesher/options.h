@@ -107,9 +107,10 @@ struct PlaneOptions : TimeLimit {
   double max_edge = 0;        // largest edge wanted inside; 0: no bound
   PlaneAsPaper as_paper;
   Region region = Region::interior;
-  std::uint64_t max_vertices = 0;  // 0: 1e7 and 64 more per input vertex
-  bool want_exact = false;         // fill PlaneResult::exact
-  bool want_chamfered = false;     // fill PlaneResult::chamfered
+  // 0: 1e7 and 64 more per input vertex, and no more than 5e6 triangles predicted in channels.
+  std::uint64_t max_vertices = 0;
+  bool want_exact = false;      // fill PlaneResult::exact
+  bool want_chamfered = false;  // fill PlaneResult::chamfered
 };
 
 // Of check_surface().
