@@ -20,7 +20,8 @@ struct Pairing {
   double mcnemar = 1;  // the probability by chance of a split that is as uneven
   // The median of second / first over the models on which both succeed; and the probabilities of
   // Wilcoxon's test on the logarithms.
-  std::optional<double> time_ratio, size_ratio;
+  std::optional<double> time_ratio, size_ratio;  // of tetrahedra inside where the files tell them
+  std::string covers;  // where they do not, for one of the two: " (hull / interior)"
   double time_probability = 1, size_probability = 1;
   // Quantiles (10, 50, 90 %) of the difference second - first of the smallest and the average
   // smallest face angle, in degrees.

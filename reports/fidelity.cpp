@@ -141,7 +141,8 @@ Table table_2_fidelity(const Selection& selection) {
         if (const RunRow* run = selection.ok_run(kMeshers[i], model)) runs.push_back(run);
       }
       cells.push_back(printed(row.paper[i]));
-      cells.push_back(plain(mean(values_of(runs, row.value))));
+      cells.push_back(plain(mean(values_of(runs, row.value))) +
+                      (row.paper[i] > 1000 ? region_mark(runs) : ""));  // a count
     }
     table.rows.push_back(std::move(cells));
   }
@@ -236,7 +237,7 @@ Table table_3_fidelity(const Selection& selection, const std::string& model) {
       const RunRow* run = selection.ok_run(kMeshers[i], model);
       if (run == nullptr) continue;
       cells.push_back(printed(row.paper[i]));
-      cells.push_back(plain(row.value(*run)));
+      cells.push_back(plain(row.value(*run)) + (row.paper[i] > 1000 ? region_mark({run}) : ""));
     }
     table.rows.push_back(std::move(cells));
   }

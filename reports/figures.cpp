@@ -261,9 +261,9 @@ Chart cactus_chart(const Selection& selection) {
 }
 
 Chart size_cactus_chart(const Selection& selection) {
-  Chart chart = cactus(selection, of(&RunRow::mesh, &MeshColumns::tetrahedra));
+  Chart chart = cactus(selection, of_solid(&MeshColumns::tetrahedra));
   chart.name = "cactus-size";
-  chart.title = "Survival: models meshed when each may have so many tetrahedra";
+  chart.title = "Survival: models meshed when each may have so many tetrahedra inside";
   chart.y_title = "tetrahedra";
   return chart;
 }

@@ -48,6 +48,12 @@ std::string whole_words(const std::string& text) {
     const bool keep = word.size() <= kLongest && word.find('-') != std::string::npos &&
                       word.find_first_not_of('-') != std::string::npos;
     result += text.substr(at, start - at);
+    if (word.starts_with("https://")) {
+      const std::string host = word.substr(8, word.find('/', 8) - 8);
+      result += "<a href=\"" + markup_text(word) + "\">" + markup_text(host) + "</a>";
+      at = end;
+      continue;
+    }
     result += keep ? "<span class=\"whole\">" + markup_text(word) + "</span>" : markup_text(word);
     at = end;
   }
@@ -91,10 +97,12 @@ std::string table_row(const Table& table, const std::vector<std::string>& cells)
       continue;
     }
     // A column of numbers keeps its side for a word among them. Sentences have room.
+    constexpr std::size_t kLong = 30;
     const bool sentence = std::count(cells[i].begin(), cells[i].end(), ' ') > 3;
-    const char* kind = !is_words(cells[i]) || !has_words(table, i) ? ""
-                       : sentence                                  ? " class=\"text prose\""
-                                                                   : " class=\"text\"";
+    const char* kind = sentence && cells[i].size() > kLong           ? " class=\"text prose\""
+                       : !is_words(cells[i]) || !has_words(table, i) ? ""
+                       : sentence                                    ? " class=\"text prose\""
+                                                                     : " class=\"text\"";
     row += fmt::format("<td{}>{}</td>", kind, whole_words(cells[i]));
   }
   return row + "</tr>\n";
@@ -232,6 +240,7 @@ Json run_json(const RunRow& row, std::size_t model, std::size_t mesher, bool his
           phases_of(row),
           histograms ? histogram_of(row, "face_angle_histogram") : Json(),
           histograms ? histogram_of(row, "dihedral_histogram") : Json(),
+          row.region,
           row.command};
 }
 
@@ -249,7 +258,8 @@ Json data_of(const Page& page, const Selection& selection) {
                      "reason",       "wall_seconds",   "verify_seconds",      "peak_mb",
                      "vertices",     "tetrahedra",     "min_face_angle",      "max_face_angle",
                      "min_dihedral", "max_dihedral",   "mean_min_face_angle", "mean_min_dihedral",
-                     "phases",       "face_histogram", "dihedral_histogram",  "command"};
+                     "phases",       "face_histogram", "dihedral_histogram",  "region",
+                     "command"};
   data["meshers"] = selection.meshers;
   data["phases"] = kPhases;
   data["charts_drawn"] = page.has_charts;

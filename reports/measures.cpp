@@ -142,6 +142,21 @@ std::string successes_of(const Selection& selection, const std::string& mesher) 
          (unverified == 0 ? "" : fmt::format(", {} unverified", unverified));
 }
 
+std::string region_of(const Rows& rows) {
+  std::string region;
+  for (const RunRow* row : rows) {
+    const std::string here = row->region.empty() ? "not told" : row->region;
+    if (!region.empty() && region != here) return "mixed";
+    region = here;
+  }
+  return region.empty() ? "-" : region;
+}
+
+std::string region_mark(const Rows& rows) {
+  const std::string region = region_of(rows);
+  return region == "hull" || region == "mixed" ? " (" + region + ")" : "";
+}
+
 bool limits_differ(const Selection& selection, const std::vector<std::string>& meshers) {
   const auto groups = limits_and_meshers(selection, meshers);
   return groups.size() > 1 ||

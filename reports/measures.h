@@ -35,6 +35,13 @@ Value of_solid(T MeshColumns::*column) {
   return [=](const RunRow& row) { return row.inside ? inside(row) : all(row); };
 }
 
+// What the meshes of these runs cover: "interior", "hull", "not told", "mixed", or "-" for none.
+std::string region_of(const Rows& rows);
+
+// Stands behind a number of vertices or tetrahedra: " (hull)" or " (mixed)", nothing if they are
+// those inside the model.
+std::string region_mark(const Rows& rows);
+
 struct AngleMeasure {
   const char* label;
   double MeshColumns::*column;

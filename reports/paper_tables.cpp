@@ -58,8 +58,10 @@ Table table_3(const Selection& selection, const std::string& model) {
   };
   if (rows.empty()) return table;
   table.caption = limits_caption(selection, {table.header.begin() + 1, table.header.end()});
-  add("Number of vertices", [](const RunRow& r) { return std::to_string(r.mesh->vertices); });
-  add("Number of tetrahedra", [](const RunRow& r) { return std::to_string(r.mesh->tetrahedra); });
+  add("Number of vertices",
+      [](const RunRow& r) { return std::to_string(r.mesh->vertices) + region_mark({&r}); });
+  add("Number of tetrahedra",
+      [](const RunRow& r) { return std::to_string(r.mesh->tetrahedra) + region_mark({&r}); });
   for (const auto& angles : {kExtremeAngles, kAverageAngles}) {
     for (int i = 0; i < 4; ++i) {
       add(angles[i].label, [&](const RunRow& r) { return precise((*r.mesh).*(angles[i].column)); });

@@ -226,7 +226,9 @@ std::vector<std::string> summary_of(const Selection& selection) {
   }
   summary.emplace_back(
       "\"The paper\" is Diazzi, Dai, Panozzo, Attene: Surface chamfering for robust tetrahedral "
-      "meshing, ACM Transactions on Graphics 45(4), 146 (2026).");
+      "meshing, ACM Transactions on Graphics 45(4), 146 (2026): "
+      "https://dl.acm.org/action/doSearch?AllField=Surface+chamfering+for+robust+tetrahedral+"
+      "meshing");
   return summary;
 }
 

@@ -191,10 +191,26 @@ TEST(Compare, SwappingTheSidesInverts) {
   EXPECT_EQ(p.only_second, 1U);
   EXPECT_EQ(q.only_first, 1U);
   EXPECT_NEAR(*p.time_ratio * *q.time_ratio, 1, 1e-12);
-  EXPECT_NEAR(*p.size_ratio, 2, 1e-12);  // 1000/500 and 20000/10000
+  EXPECT_NEAR(*p.size_ratio, std::sqrt(2 * 2.25), 1e-12);  // inside: 400/200 and 9000/4000
+  EXPECT_EQ(p.covers, "");
   EXPECT_NEAR(*p.min_angle[1], -*q.min_angle[1], 1e-12);
   EXPECT_EQ(p.time_probability, q.time_probability);
   EXPECT_EQ(p.mcnemar, q.mcnemar);
+}
+
+// A hull beside an interior, neither file telling its inside, is no comparison of sizes.
+TEST(Compare, WhatDoesNotCoverTheSameIsMarked) {
+  std::vector<RunRow> rows = {row_of({"a", "cdt", kOk, 100, 5, 1, 0, 0}),
+                              row_of({"a", "tetgen", kOk, 50, 5, 1, 0, 0})};
+  rows[0].region = "hull";
+  rows[1].region = "interior";
+  EXPECT_EQ(pair_up(select_runs(rows), "cdt", "tetgen").covers, " (hull / interior)");
+  const Table table = pairing_table(select_runs(rows));
+  const auto at = std::find(table.header.begin(), table.header.end(), "Size ratio");
+  EXPECT_EQ(table.rows.at(0).at(0), "tetgen");
+  EXPECT_EQ(table.rows.at(0).at(at - table.header.begin()), "2.000 (interior / hull)");
+  rows[1].region = "hull";
+  EXPECT_EQ(pair_up(select_runs(rows), "cdt", "tetgen").covers, "");
 }
 
 TEST(Compare, VersionsStandBesideEachOther) {
@@ -275,12 +291,14 @@ class ReportFolder : public testing::Test {
 TEST_F(ReportFolder, ThePageNeedsNothingButItself) {
   write_report(detailed_campaign(), folder_);
   const std::string page = text("report.html");
-  const std::regex foreign("(src|href)=\"(?!#|data:)");
+  // A link to the paper is fetched by nobody who does not ask for it.
+  const std::regex foreign("(src|href)=\"(?!#|data:|https://dl\\.acm\\.org/)");
   const auto before_scripts = page.substr(0, page.find("<script>"));
   EXPECT_FALSE(std::regex_search(before_scripts, foreign));
   EXPECT_EQ(before_scripts.find("@import"), std::string::npos);
   EXPECT_NE(page.find("THREE.OrbitControls"), std::string::npos);
   EXPECT_NE(page.find("Chart.js v"), std::string::npos);
+  EXPECT_NE(page.find("<a href=\"https://dl.acm.org/"), std::string::npos);
 }
 
 TEST_F(ReportFolder, TheDataOfThePageAreWhole) {
@@ -510,6 +528,32 @@ TEST_F(ReportFolder, ThePageOpensOnOurMesh) {
       2);
   EXPECT_EQ(std::count_if(few.begin(), few.end(), [](const ViewPart& p) { return p.ours; }), 1);
   EXPECT_LT(few.size(), 7U);
+}
+
+TEST_F(ReportFolder, ThePageOpensOnTheModelWithTheMostToLookAt) {
+  std::filesystem::create_directories(folder_);
+  std::ofstream(folder_ / "a.off")
+      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  const std::string header = "5 vertices\n", vertices = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n";
+  std::ofstream(folder_ / "one.tet") << header << "1 tets\n" << vertices << "4 0 1 2 3\n";
+  std::ofstream(folder_ / "two.tet") << header << "2 tets\n"
+                                     << vertices << "4 0 1 2 4\n4 0 1 4 3\n";
+  std::vector<RunRow> rows;
+  for (const auto& [model, tets] : {std::pair("a", 1U), std::pair("b", 2U), std::pair("c", 1U)}) {
+    RunRow& row = rows.emplace_back(row_of({model, "delmesher", kOk, tets, 45, 1, 0, 0}));
+    row.key.version = "delmesher 1";
+    row.key.flags = "mesh";
+    row.model_path = folder_ / "a.off";
+    row.mesh_path = folder_ / (tets == 1 ? "one.tet" : "two.tet");
+  }
+  std::vector<std::string> notes;
+  const auto largest = collect_views(select_runs(rows), {}, notes);
+  ASSERT_EQ(largest.size(), 6U) << (notes.empty() ? "" : notes[0]);
+  EXPECT_EQ(largest[0].model, 1U);
+  // Two meshes beside each other are more than one larger one.
+  rows.push_back(rows[2]);
+  rows.back().key.mesher = "delmesher-split";
+  EXPECT_EQ(collect_views(select_runs(rows), {}, notes).at(0).model, 2U);
 }
 
 TEST_F(ReportFolder, AnEmptyCampaignGivesAReport) {

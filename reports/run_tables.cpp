@@ -155,10 +155,11 @@ Table slowest_table(const Selection& selection) {
   table.header = {"Model",   "Mesher",     "Disposition", "Seconds",
                   "Peak MB", "Tetrahedra", "Oracles, s"};
   for (const RunRow* row : rows) {
-    table.rows.push_back({row->model_name, row->key.mesher, disposition_name(row->disposition),
-                          fixed(row->wall_seconds, 2), fixed(peak_megabytes()(*row), 0),
-                          row->mesh ? std::to_string(row->mesh->tetrahedra) : "-",
-                          fixed(row->verify_seconds, 2)});
+    table.rows.push_back(
+        {row->model_name, row->key.mesher, disposition_name(row->disposition),
+         fixed(row->wall_seconds, 2), fixed(peak_megabytes()(*row), 0),
+         row->mesh ? std::to_string(row->mesh->tetrahedra) + region_mark({row}) : "-",
+         fixed(row->verify_seconds, 2)});
   }
   return table;
 }

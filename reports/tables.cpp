@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "reports/measures.h"
 #include "reports/statistics.h"
@@ -18,6 +19,16 @@ void add_row(Table& table, const std::string& label, const std::vector<Rows>& co
   std::vector<std::string> row = {label};
   for (const Rows& rows : columns) row.push_back(cell(rows));
   table.rows.push_back(std::move(row));
+}
+
+void add_counts(Table& table, const std::vector<Rows>& columns, Part part) {
+  for (const auto& [label, column] : {std::pair("Avg. # vertices", &MeshColumns::vertices),
+                                      std::pair("Avg. # tetrahedra", &MeshColumns::tetrahedra)}) {
+    add_row(table, label, columns, [&](const Rows& rows) {
+      const std::string number = fixed(mean(values_of(rows, of(part, column))), 0);
+      return number + (part == &RunRow::mesh ? region_mark(rows) : "");
+    });
+  }
 }
 
 // Rows of the shapes, where any mesh has been measured for them. Returns whether there are any.
@@ -38,17 +49,6 @@ bool add_shapes(Table& table, const std::vector<Rows>& columns, Part part) {
 
 std::string with_refined(std::optional<double> value, std::optional<double> refined) {
   return refined ? degrees(value) + " (" + degrees(refined) + ")" : degrees(value);
-}
-
-// The region that the meshes of these rows cover.
-std::string region_of(const Rows& rows) {
-  std::string region;
-  for (const RunRow* row : rows) {
-    const std::string here = row->region.empty() ? "not told" : row->region;
-    if (!region.empty() && region != here) return "mixed";
-    region = here;
-  }
-  return region.empty() ? "-" : region;
 }
 
 constexpr const char* kRegions =
@@ -139,12 +139,7 @@ Table comparison(const Selection& selection, Part part, Over over = Over::common
     });
   }
   const bool shapes = add_shapes(table, columns, part);
-  add_row(table, "Avg. # vertices", columns, [&](const Rows& rows) {
-    return fixed(mean(values_of(rows, of(part, &MeshColumns::vertices))), 0);
-  });
-  add_row(table, "Avg. # tetrahedra", columns, [&](const Rows& rows) {
-    return fixed(mean(values_of(rows, of(part, &MeshColumns::tetrahedra))), 0);
-  });
+  add_counts(table, columns, part);
   if (part == &RunRow::mesh) add_row(table, "Region", columns, region_of);
   std::vector<std::string> successes = {"Successes (ok of runs)"};
   for (const std::string& mesher : meshers) successes.push_back(successes_of(selection, mesher));
@@ -182,12 +177,7 @@ Table table_1(const Selection& selection) {
   }
   if (!meshers.empty()) table.rows.push_back(models);
   if (!meshers.empty()) add_row(table, "Region", columns, region_of);
-  add_row(table, "Avg. # tetrahedra", columns, [](const Rows& rows) {
-    return fixed(mean(values_of(rows, of(&RunRow::mesh, &MeshColumns::tetrahedra))), 0);
-  });
-  add_row(table, "Avg. # vertices", columns, [](const Rows& rows) {
-    return fixed(mean(values_of(rows, of(&RunRow::mesh, &MeshColumns::vertices))), 0);
-  });
+  add_counts(table, columns, &RunRow::mesh);
   for (const AngleMeasure& angle : kExtremeAngles) {
     add_row(table, std::string("Avg. ") + angle.label, columns, [&](const Rows& rows) {
       return with_refined(mean(values_of(rows, of(&RunRow::mesh, angle.column))),

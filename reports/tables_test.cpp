@@ -143,6 +143,11 @@ TEST(Tables, RegionsAreTold) {
   EXPECT_EQ(t["Region"]["cdt"], "hull");
   EXPECT_EQ(t["Region"]["tetgen"], "mixed");
   EXPECT_EQ(t["Region"]["tetgen-T0"], "not told");
+  // Beside each number, too.
+  EXPECT_EQ(t["Avg. # tetrahedra"]["cdt"], "200 (hull)");
+  EXPECT_EQ(t["Avg. # tetrahedra"]["tetgen"], "5250 (mixed)");
+  EXPECT_EQ(t["Avg. # tetrahedra"]["tetgen-T0"], "600");
+  EXPECT_EQ(cells(table_2(selection))["Avg. # tetrahedra"]["cdt"], "100 (hull)");
 }
 
 TEST(Tables, CaptionsTellTheLimitsAndWhetherTheyDiffer) {

@@ -6,9 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "oracles/base/vectors.h"
 #include "oracles/files/mesh_file.h"
@@ -154,14 +156,23 @@ class Collector {
     for (const bool first : {true, false}) {
       for (const std::size_t model : models) add_model(model, first);
     }
-    // The page opens on the first part, which is of a model with a mesh of ours if there is one.
-    const auto lacks_ours = [&](std::size_t model) {
-      return std::none_of(parts_.begin(), parts_.end(),
-                          [&](const ViewPart& part) { return part.model == model && part.ours; });
-    };
+    // The page opens on the first part: of the model that has the most to look at, which is a mesh
+    // of ours, then many meshes beside each other, then one of many tetrahedra.
+    std::map<std::size_t, std::array<std::size_t, 3>> interest;
+    for (const ViewPart& part : parts_) {
+      auto& [ours, meshes, tetrahedra] = interest[part.model];
+      if (!part.mesh) continue;
+      ours = std::max(ours, std::size_t{part.ours});
+      ++meshes;
+      tetrahedra = std::max(tetrahedra, part.cells.size() / 4);
+    }
+    const auto first =
+        std::max_element(interest.begin(), interest.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
     std::stable_sort(parts_.begin(), parts_.end(), [&](const ViewPart& a, const ViewPart& b) {
       const auto place = [&](std::size_t model) {
-        return std::pair(lacks_ours(model), std::find(models.begin(), models.end(), model));
+        return std::tuple(model != first->first, interest[model][0] == 0,
+                          std::find(models.begin(), models.end(), model));
       };
       return place(a.model) < place(b.model);
     });

@@ -54,6 +54,7 @@
     const first = Number($("first").value), second = Number($("second").value), what = $("measure").value;
     const names = [first, second].map(i => data.meshers[i]), log = measures[what].log;
     const points = [], labels = [], differences = [];
+    let unlike = 0;  // a hull beside an interior
     data.models.forEach((model, m) => {
       const a = runOf(m, first), b = runOf(m, second);
       if (!isOk(a) || !isOk(b)) return;
@@ -61,6 +62,7 @@
       if (x === null || y === null || (log && (x <= 0 || y <= 0))) return;
       points.push([x, y]);
       labels.push(model.name);
+      unlike += get(a, "region") !== get(b, "region");
       differences.push(log ? y / x : y - x);
     });
     charts.draw($("scatter"), { title: measures[what].text, kind: "points", logX: log, logY: log, diagonal: true,
@@ -72,7 +74,8 @@
       y: log ? `${names[1]} / ${names[0]}` : `${names[1]} - ${names[0]}`,
       series: [{ label: `${names[1]} against ${names[0]}`, style: second, data: quantiles },
                { label: log ? "equal (1)" : "equal (0)", data: [[0, log ? 1 : 0], [100, log ? 1 : 0]] }] });
-    $("common").textContent = `${points.length} models on which both succeed`;
+    $("common").textContent = `${points.length} models on which both succeed` +
+      (unlike > 0 ? `; of ${unlike} one mesh is of the hull, the other of the interior` : "");
   }
 
   function startComparison() {
@@ -111,7 +114,8 @@
     for (const [name, digits] of [["wall_seconds", 2], ["verify_seconds", 2], ["peak_mb", 0], ["vertices", 0], ["tetrahedra", 0],
                                   ["min_face_angle", 3], ["max_face_angle", 2], ["min_dihedral", 3],
                                   ["max_dihedral", 2], ["mean_min_face_angle", 1], ["mean_min_dihedral", 1]]) {
-      row.append(element("td", number(get(run, name), digits)));
+      const hull = ["vertices", "tetrahedra"].includes(name) && get(run, "region") === "hull";
+      row.append(element("td", number(get(run, name), digits) + (hull ? " (hull)" : "")));
     }
     const reason = get(run, "reason"), how = element("td", undefined, { className: reason ? "text prose" : "text" });
     if (reason) how.append(element("div", reason));
