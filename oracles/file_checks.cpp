@@ -18,6 +18,7 @@
 #include "oracles/plan.h"
 #include "oracles/readings.h"
 #include "oracles/surface/surface_validity.h"
+#include "oracles/verdict/edge_sizes.h"
 #include "oracles/verdict/verdict.h"
 
 namespace tetproof::oracles {
@@ -41,7 +42,7 @@ class FileStep final : public Step {
   void check_surface_kept(const ConformityResult& conformity, Index first);
   void check_quality(const TetComplex& complex, const Neighbours& neighbours,
                      const InputSurface& surface, const ConformityResult& conformity);
-  void check_lengths(const TetComplex& complex);
+  void check_lengths(const TetComplex& complex, const ConformityResult& conformity);
   bool labels_differ() const;
   void tell_lost_labels();
   void check_no_list();
@@ -109,6 +110,9 @@ std::string FileStep::run() {
   if (std::string why = surface.assign(input_, points); !why.empty()) return why;
   ulp_ = ulp_of(surface);
   diagonal_ = surface.diagonal();
+  if (options_.promised.second_order && !mesh_.has_second_order) {
+    report_.unproven.emplace_back(kLinearOnly);
+  }
   if (!mesh_.edge_nodes.empty() || (options_.promised.second_order && mesh_.has_second_order)) {
     OracleReport nodes =
         check_edge_nodes(mesh_, options_.declared_deviation * diagonal_, largest_given_);
@@ -298,29 +302,25 @@ void FileStep::check_quality(const TetComplex& complex, const Neighbours& neighb
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;
   measure_angles(complex, neighbours, complex.inside, angles);
   add(std::move(angles));
-  check_lengths(complex);
+  check_lengths(complex, conformity);
 }
 
 // A corner that chamfering cut off and that came back is not refined. Whether a long edge is at
-// such a corner is in the record: there the refined mesh, and what followed, are decided.
-void FileStep::check_lengths(const TetComplex& complex) {
+// such a corner is in the record: there the refined mesh, and what followed, are decided. Nothing
+// excuses one beside a surface that is kept and has no such edge.
+void FileStep::check_lengths(const TetComplex& complex, const ConformityResult& conformity) {
+  const double longest = options_.promised.max_edge * EdgeSizes::kMost;
+  const bool fine = std::ranges::all_of(conformity.faces, [&](const Face& face) {
+    const auto& [a, b, c] = face;
+    return std::max({exact::distance(*complex.points, a, b), exact::distance(*complex.points, b, c),
+                     exact::distance(*complex.points, c, a)}) <= longest;
+  });
+  const bool keep = options_.promised.keep;
   for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, scope())) {
-    if (lengths.violations > 0) {
-      char text[100];
-      std::snprintf(text, sizeof text, "%s (%llu edges are longer, up to %.3g times)",
-                    lengths.name == "edges" ? "--max-edge" : "--size-field",
-                    static_cast<unsigned long long>(lengths.violations),
-                    lengths.figure(kLargestEdge).value_or(0));
-      report_.unproven.emplace_back(text);
-      if (exact_ == nullptr) {
-        lengths.undecided = true;
-        lengths.notes.emplace_back(
-            "edges at corners that were chamfered may be longer; a record (--exact) says where");
-      } else {
-        lengths.promised = false;
-        lengths.violations = 0;
-        lengths.findings.clear();
-      }
+    const bool edges = lengths.name == "edges";
+    if (!(keep && edges && fine)) {
+      excuse_long_edges(edges ? "--max-edge" : "--size-field", keep || exact_ != nullptr, lengths,
+                        report_.unproven);
     }
     add(std::move(lengths));
   }

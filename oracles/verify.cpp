@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <numeric>
@@ -83,6 +84,43 @@ std::optional<double> stated_planar(const Frame& frame) {
   return std::min(recorded, stated.value_or(recorded));
 }
 
+double longest_edge(const Polyhedron& input) {
+  double longest = 0;
+  for (const auto& triangle : input.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = triangle[i], w = triangle[(i + 1) % 3];
+      if (std::max(v, w) >= input.vertices.size()) continue;  // reported later
+      longest = std::max(longest, distance(input.vertices[v], input.vertices[w]));
+    }
+  }
+  return longest;
+}
+
+// What the record says and no oracle can decide, where it gives less than was asked for.
+void name_what_is_trusted(const Frame& frame, bool may_keep, std::size_t tetrahedra,
+                          VerifyReport& report) {
+  const Promise& promise = frame.options.promised;
+  const auto add = [&](const std::string& option, const char* format, double value) {
+    char text[100];
+    std::snprintf(text, sizeof text, format, value);
+    report.unproven.push_back(option + text);
+  };
+  if (may_keep && promise.keep) {
+    report.unproven.emplace_back("that bounded angles were too heavy (the surface is kept)");
+  }
+  if (promise.task != Task::mesh) return;
+  if (promise.delta > promise.guaranteed_delta()) {
+    add("--delta", " above %.6g degrees", promise.guaranteed_delta());
+  }
+  if (promise.budget == 0) return;
+  const OracleReport* told = report.find("promise");
+  if (const auto tau = told == nullptr ? std::nullopt : told->figure(kTauForBudget)) {
+    add("--budget", " (that it needs a tau of %.6g)", *tau);
+  }
+  const auto count = static_cast<double>(tetrahedra);
+  if (count > promise.budget) add("--budget", " (there are %.0f tetrahedra)", count);
+}
+
 // Every deviation; other figures of lengths stay.
 void put_in_given_units(const Frame& frame, VerifyReport& report) {
   if (!frame.scaled) return;
@@ -110,7 +148,9 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     if (std::string why = label_by_angle(*labelled, degrees); !why.empty()) return why;
     frame.input = &*labelled;
   }
-  if (exact != nullptr) frame.options.promised.settle(*exact);
+  const bool may_keep = frame.options.promised.may_keep;
+  const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped
+  if (exact != nullptr) frame.options.promised.settle(*exact, longest_edge(*frame.input));
   if (frame.options.promised.keep && frame.options.stage == Stage::both) {
     frame.options.stage = Stage::final;
   }
@@ -155,7 +195,10 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   report.scope = scope_of(frame.options, exact != nullptr);
   if (exact == nullptr) {
     std::ranges::copy(options.promised.of_record, std::back_inserter(report.unproven));
+  } else {
+    name_what_is_trusted(frame, may_keep, tetrahedra, report);
   }
+  if (options.promised.names) report.unproven.emplace_back(kOtherNames);
   conclude(diagonal, report);
   put_in_given_units(frame, report);
   return {};

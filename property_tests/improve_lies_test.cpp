@@ -18,6 +18,7 @@
 
 #include "mesher/delmesher.h"
 #include "mesher/delmesher_files.h"
+#include "oracles/files/edge_nodes.h"
 #include "oracles/improvement/improved.h"
 #include "oracles/mesh/angles.h"
 #include "property_tests/samples.h"
@@ -487,6 +488,19 @@ TEST(ImproveLies, AsManyVerticesAsPromisedPass) {
   const VerifyReport report = verdict_on(t);
   EXPECT_NE(report.find("promise"), nullptr);
   EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+}
+
+TEST(ImproveLies, AFormatWithoutTrianglesIsSaidFirst) {
+  Told t = told();
+  t.mesh.lists_boundary = t.mesh.has_second_order = false;
+  t.mesh.boundary.clear();
+  t.mesh.labels.clear();
+  t.options.promised.second_order = t.options.promised.names = true;
+  const VerifyReport report = verdict_on(t);
+  EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+  EXPECT_EQ(report.unproven,
+            (std::vector<std::string>{"triangles and labels of the mesh given (the file has none)",
+                                      "--names", kLinearOnly}));
 }
 
 TEST(ImproveLies, AreCaught) {

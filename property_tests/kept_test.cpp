@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesher/delmesher.h"
+#include "oracles/base/vectors.h"
 #include "oracles/mesh/kept.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
@@ -125,30 +126,30 @@ TEST(KeptSurface, HasShorterEdgesInsideIfAskedFor) {
   EXPECT_GT(fine.mesh.tetrahedra.size(), 3 * coarse.mesh.tetrahedra.size());
 }
 
+double longest_edge(const Surface& surface) {
+  double longest = 0;
+  for (const auto& t : surface.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      longest = std::max(
+          longest, oracles::distance(surface.vertices[t[i]], surface.vertices[t[(i + 1) % 3]]));
+    }
+  }
+  return longest;
+}
+
 // A bound where edges of the surface are within it.
 TEST(KeptSurface, HasNoLongerEdgeThanAllowed) {
   const Surface surface = ball(8);
-  double longest = 0;
-  const auto square = [](const auto& a, const auto& b) {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sum;
-  };
-  for (const auto& t : surface.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      longest = std::max(longest, square(surface.vertices[t[i]], surface.vertices[t[(i + 1) % 3]]));
-    }
-  }
   for (const double part : {1.0, 1.2, 1.5}) {
     Options options = keeping();
-    options.max_edge = part * std::sqrt(longest);
+    options.max_edge = part * longest_edge(surface);
     expect_kept(surface, options);
     const Result result = delmesher::tetrahedralize(surface, options);
     for (const auto& t : result.mesh.tetrahedra) {
       for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < i; ++j) {
-          EXPECT_LE(square(result.mesh.vertices[t[i]], result.mesh.vertices[t[j]]),
-                    options.max_edge * options.max_edge * (1 + 1e-12));
+          EXPECT_LE(oracles::distance(result.mesh.vertices[t[i]], result.mesh.vertices[t[j]]),
+                    options.max_edge * (1 + 1e-12));
         }
       }
     }
@@ -169,6 +170,34 @@ TEST(KeptSurface, TakesNoOptionThatDoesNothing) {
         +[](Options& o) { o.as_paper.link = true; },
         +[](Options& o) { o.surface = SurfaceChoice::split; }}) {
     EXPECT_EQ(refused(change).code, StatusCode::invalid_options);
+  }
+}
+
+// Edges in the volume are as short, if those of the surface are.
+TEST(KeptSurface, IsBrokenByAnEdgeInTheVolumeThatIsTooLong) {
+  const Surface surface = ball(8);
+  const Result result = delmesher::tetrahedralize(surface, keeping());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const auto judged = [&](double longest, const delmesher::ExactRecord* record) {
+    Options options = keeping();
+    options.max_edge = longest;
+    VerifyReport report;
+    EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
+                              record, {.promised = oracles::promise_of(options)}, report),
+              "");
+    return report;
+  };
+  const double longest = longest_edge(surface);
+  for (const auto* record : {&result.exact, static_cast<const delmesher::ExactRecord*>(nullptr)}) {
+    const VerifyReport broken = judged(longest, record);
+    ASSERT_NE(broken.find("edges"), nullptr);
+    EXPECT_GT(broken.find("edges")->violations, 0U) << to_text(broken);
+    EXPECT_EQ(broken.verdict, oracles::Verdict::broken);
+    // Beside a surface that has longer edges some have to be long, and the first line says so.
+    const VerifyReport told = judged(longest / 2, record);
+    EXPECT_NE(told.verdict, oracles::Verdict::broken) << to_text(told);
+    ASSERT_EQ(told.unproven.size(), 1U);
+    EXPECT_TRUE(told.unproven[0].starts_with("--max-edge (")) << told.unproven[0];
   }
 }
 

@@ -65,6 +65,32 @@ std::map<std::string, double> figures_of(const VerifyReport& report, const std::
   return {found->figures.begin(), found->figures.end()};
 }
 
+// What the record says and nobody can decide stands in the first line.
+TEST(Truths, SayFirstWhatIsTrusted) {
+  Options options;
+  options.want_exact = true;
+  options.surface = delmesher::SurfaceChoice::keep;
+  Told kept = run_of(options);
+  EXPECT_EQ(verdict_on(kept).unproven, std::vector<std::string>{});
+  kept.promise = promise_of(Options{});
+  EXPECT_EQ(verdict_on(kept).unproven,
+            std::vector<std::string>{"that bounded angles were too heavy (the surface is kept)"});
+  Told split = honest();
+  EXPECT_EQ(verdict_on(split).unproven, std::vector<std::string>{});
+  split.promise.delta = 25;
+  split.promise.budget = 10;
+  split.promise.names = true;
+  const std::string count = std::to_string(split.sample.mesh.tetrahedra.size());
+  EXPECT_EQ(verdict_on(split).unproven,
+            (std::vector<std::string>{"--delta above 14.4775 degrees",
+                                      "--budget (there are " + count + " tetrahedra)", "--names"}));
+  split.promise = honest().promise;
+  split.promise.tau /= 4;
+  split.promise.budget = 1e6;
+  EXPECT_EQ(verdict_on(split).unproven,
+            std::vector<std::string>{"--budget (that it needs a tau of 0.00195312)"});
+}
+
 // The figures of an honest run, apart from that it passes.
 TEST(Truths, FiguresAreThoseOfTheRun) {
   const ExactRecord& r = honest().record;

@@ -101,6 +101,35 @@ TEST(PlaneTruths, AnAngleThatWasNotReachedIsTold) {
   }));
 }
 
+// What is not shown, or not kept where corners came back, stands in the first line.
+TEST(PlaneTruths, SayFirstWhatIsNotShown) {
+  Told told = honest();
+  EXPECT_EQ(verdict_on(told).unproven, std::vector<std::string>{});
+  told.how.promised.delta = 30;
+  EXPECT_EQ(verdict_on(told).unproven, std::vector<std::string>{"--delta above 20.7 degrees"});
+  told = honest();
+  told.how.promised.max_edge = 0.125;
+  for (const bool with_record : {true, false}) {
+    const oracles::VerifyReport report = verdict_on(told, with_record);
+    ASSERT_EQ(report.unproven.size(), 1U);
+    EXPECT_TRUE(report.unproven[0].starts_with("--max-edge (")) << report.unproven[0];
+    ASSERT_NE(report.find("edges"), nullptr);
+    EXPECT_EQ(report.find("edges")->undecided, !with_record);
+  }
+  told = honest();
+  told.graph.markers.assign(told.graph.segments.size(), 1);
+  told.graph.markers[0] = 2;
+  told.graph.regions = {{{0.25, 0.25}, 5}};
+  told.file.lists_edges = false;
+  told.file.edges.clear();
+  told.file.markers.clear();
+  told.file.segments.clear();
+  told.file.attributes.clear();
+  EXPECT_EQ(verdict_on(told, false).unproven,
+            (std::vector<std::string>{"markers of the input (the file has none)",
+                                      "attributes of regions (the file has none)"}));
+}
+
 TEST(PlaneLies, NameAVertexOfTheInputThatNothingReaches) {
   Told told = honest();
   told.graph.vertices.push_back({3, 1});

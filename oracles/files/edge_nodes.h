@@ -29,4 +29,7 @@ void take_out_edge_nodes(MeshFile& mesh, const NodesOnEdges& nodes, const std::s
 // that as given, if it is larger) or what is declared (a length).
 OracleReport check_edge_nodes(const MeshFile& mesh, double declared, double largest_given = 0);
 
+// What is not shown of a file whose format has linear elements alone.
+inline constexpr char kLinearOnly[] = "--order 2 (the format has linear elements only)";
+
 }  // namespace tetproof::oracles

@@ -58,7 +58,13 @@ class Improved {
     unite_points();
     check_orientation();
     check_walls();
-    if (mesh_.lists_boundary && !(given_.boundary.empty() && mesh_.boundary.empty())) check_list();
+    if (!mesh_.lists_boundary) {
+      if (!given_.boundary.empty())
+        report_.unproven.emplace_back("triangles and labels of the mesh given (the file has none)");
+    } else if (!given_.boundary.empty() || !mesh_.boundary.empty()) {
+      check_list();
+    }
+    if (options_.promised.names) report_.unproven.emplace_back(kOtherNames);
     check_nodes();
     if (options_.promised.max_vertices > 0) {
       add(check_written(options_.promised, mesh_.vertices.size()));
@@ -354,6 +360,7 @@ void Improved::check_list() {
 
 void Improved::check_nodes() {
   if (mesh_.edge_nodes.empty() && !(options_.promised.second_order && mesh_.has_second_order)) {
+    if (options_.promised.second_order) report_.unproven.emplace_back(kLinearOnly);
     return;
   }
   double diagonal2 = 0;

@@ -9,10 +9,8 @@ namespace tetproof::oracles {
 
 // What --max-edge and --size-field allow: no edge of a tetrahedron in the scope is longer, for a
 // field at none of its points. One report for each of the two that was promised, "edges" and
-// "sizes"; figures: how many edges are too long, and the largest over what is allowed.
+// "sizes", with the figures of edge_sizes.h.
 std::vector<OracleReport> check_edge_lengths(const TetComplex& complex, const Promise& promise,
                                              AngleScope scope);
-
-inline constexpr char kTooLong[] = "edges too long", kLargestEdge[] = "largest over its size";
 
 }  // namespace tetproof::oracles

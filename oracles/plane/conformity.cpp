@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
 #include "oracles/base/union_find.h"
 #include "oracles/plane/faces.h"
+#include "oracles/verdict/edge_sizes.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -18,6 +20,40 @@ using Edge = std::pair<Index, Index>;
 Edge undirected(Index a, Index b) {
   return {std::min(a, b), std::max(a, b)};
 }
+
+// The edges at a vertex, of which a hub has many, by their directions.
+class Spokes {
+ public:
+  static constexpr double kWindow = 0x1p-24;  // radians
+
+  // Near ones may have any direction.
+  void add(Index to, double direction, bool far) {
+    if (far) {
+      far_.emplace_back(direction, to);
+    } else {
+      near_.push_back(to);
+    }
+  }
+  void sort() { std::sort(far_.begin(), far_.end()); }
+
+  // Calls meet(end) for those in this direction, and some others.
+  template <class Meet>
+  void visit(double direction, Meet&& meet) const {
+    constexpr double kTurn = 6.283185307179586;
+    for (const Index to : near_) meet(to);
+    for (const double turns : {-kTurn, 0.0, kTurn}) {
+      const double from = direction + turns - 2 * kWindow, end = direction + turns + 2 * kWindow;
+      for (auto spoke = std::lower_bound(far_.begin(), far_.end(), std::pair(from, Index{0}));
+           spoke != far_.end() && spoke->first <= end; ++spoke) {
+        meet(spoke->second);
+      }
+    }
+  }
+
+ private:
+  std::vector<std::pair<double, Index>> far_;
+  std::vector<Index> near_;
+};
 
 class FileChecker {
  public:
@@ -48,6 +84,8 @@ class FileChecker {
       check_sides();
       check_attributes();
       check_list();
+      check_lengths(report);
+      tell_losses(report);
       for (OracleReport* r : {&orientation_, &conformity_, &sides_, &list_, &angles_}) {
         if (r != &list_ || file_.lists_edges) report.oracles.push_back(std::move(*r));
       }
@@ -160,16 +198,15 @@ class FileChecker {
   std::vector<Index> next_of(Index v, const PlaneGraph::Piece& piece, double dx, double dy) {
     std::vector<std::pair<double, Index>> found;
     const Point& p = points_.all()[v];
-    for (auto edge = neighbours_.lower_bound({v, 0}); edge != neighbours_.end() && edge->first == v;
-         ++edge) {
-      const Point& q = points_.all()[edge->second];
+    spokes_[v].visit(std::atan2(dy, dx), [&](Index w) {
+      const Point& q = points_.all()[w];
       const double on = scaled(p.dx, q.dx) * dx + scaled(p.dy, q.dy) * dy;
-      if (!(on > 0)) continue;
+      if (!(on > 0)) return;
       // A piece has no input vertices but its ends.
-      const bool end = place_of(edge->second) == place(piece.b);
-      if (!end && input_places_.contains(place_of(edge->second))) continue;
-      if (end || off(edge->second, piece) <= allowed(q)) found.emplace_back(-on, edge->second);
-    }
+      const bool end = place_of(w) == place(piece.b);
+      if (!end && input_places_.contains(place_of(w))) return;
+      if (end || off(w, piece) <= allowed(q)) found.emplace_back(-on, w);
+    });
     std::sort(found.begin(), found.end());  // the nearest is tried first
     std::vector<Index> result;
     for (const auto& [on, w] : found) result.push_back(w);
@@ -191,6 +228,13 @@ class FileChecker {
     return {graph_.vertex(v).dx + 0.0, graph_.vertex(v).dy + 0.0};
   }
 
+  // Might the point be within the tolerance of the line? In doubles, for what is certainly not.
+  bool near_line(const Point& p, const Point& q, const Point& r) const {
+    const double x = r.dx - q.dx, y = r.dy - q.dy, u = p.dx - q.dx, v = p.dy - q.dy;
+    const double across = std::fabs(x * v - y * u), size = std::fabs(x) + std::fabs(y);
+    return !(across > 2 * (tolerance_ + 1e-12 * (size + std::fabs(u) + std::fabs(v))) * size);
+  }
+
   // Is the middle of a piece well within the triangles?
   bool covered(const PlaneGraph::Piece& piece) {
     const Point &p = graph_.vertex(piece.a), &q = graph_.vertex(piece.b);
@@ -207,8 +251,8 @@ class FileChecker {
       for (std::size_t i = 0; i < 3; ++i) {
         const Index a = v[i], b = v[(i + 1) % 3];
         in_this = in_this && points_.orient(all[a], all[b], m) >= 0;
-        at_border =
-            at_border || (!left_of_.contains({b, a}) && distance(m, all[a], all[b]) <= tolerance_);
+        at_border = at_border || (near_line(m, all[a], all[b]) && !left_of_.contains({b, a}) &&
+                                  distance(m, all[a], all[b]) <= tolerance_);
       }
       in_one = in_one || in_this;
     });
@@ -232,11 +276,18 @@ class FileChecker {
     // If a file lists the edges on segments, no others count.
     std::set<Edge> listed;
     for (const auto& [a, b] : file_.edges) listed.insert(undirected(a, b));
+    std::set<Edge> edges;
     for (const auto& [edge, t] : left_of_) {
       if (file_.lists_edges && !listed.contains(undirected(edge.first, edge.second))) continue;
-      neighbours_.insert(edge);
-      neighbours_.insert({edge.second, edge.first});
+      edges.insert(edge);
+      edges.insert({edge.second, edge.first});
     }
+    spokes_.resize(all.size());
+    for (const auto& [v, w] : edges) {
+      const double x = all[w].dx - all[v].dx, y = all[w].dy - all[v].dy;
+      spokes_[v].add(w, std::atan2(y, x), std::hypot(x, y) > tolerance_ / Spokes::kWindow);
+    }
+    for (Spokes& spokes : spokes_) spokes.sort();
     for (Index p = 0; p < graph_.pieces().size(); ++p) check_piece(p);
     check_vertices();
     check_borders();
@@ -465,6 +516,43 @@ class FileChecker {
     if (file_.lists_holes) check_holes();
   }
 
+  // Chamfered corners that came back are not refined.
+  void check_lengths(VerifyReport& report) {
+    if (promise_.max_edge == 0) return;
+    OracleReport lengths("edges", "triangles");
+    double largest = 0;
+    std::set<Edge> too_long;
+    for (Index t = 0; t < file_.triangles.size(); ++t) {
+      ++lengths.checked;
+      if (!hull() && !inside(t)) continue;
+      const auto& v = file_.triangles[t];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Edge edge = undirected(v[i], v[(i + 1) % 3]);
+        const double over = points_.distance(edge.first, edge.second) / promise_.max_edge;
+        largest = std::max(largest, over);
+        if (over > EdgeSizes::kMost && too_long.insert(edge).second) {
+          lengths.fail(name(t) + " has an edge above --max-edge");
+        }
+      }
+    }
+    lengths.figures = {{kTooLong, static_cast<double>(too_long.size())}, {kLargestEdge, largest}};
+    excuse_long_edges("--max-edge", recorded_, lengths, report.unproven);
+    report.oracles.push_back(std::move(lengths));
+  }
+
+  // Not every format has all that the input says.
+  void tell_losses(VerifyReport& report) const {
+    const auto differ = [](const auto& list, auto member) {
+      return std::ranges::adjacent_find(list, std::ranges::not_equal_to(), member) != list.end();
+    };
+    if (differ(graph_.given().markers, std::identity()) && file_.markers.empty()) {
+      report.unproven.emplace_back("markers of the input (the file has none)");
+    }
+    if (!graph_.given().regions.empty() && file_.attributes.empty()) {
+      report.unproven.emplace_back("attributes of regions (the file has none)");
+    }
+  }
+
   void check_holes() {
     const auto same = [](const auto& a, const auto& b) {
       return a.point == b.point && a.attribute == b.attribute;
@@ -515,7 +603,7 @@ class FileChecker {
   bool indices_right_ = true;
   double deviation_ = 0;
   std::map<Edge, Index> left_of_;  // directed edge to the triangle on its left
-  std::set<Edge> neighbours_;      // both directions
+  std::vector<Spokes> spokes_;     // per vertex, to those at the other ends of edges
   std::map<std::array<double, 2>, Index> at_;
   std::set<std::array<double, 2>> input_places_;
   std::map<Edge, Index> chains_;  // edges that tile pieces of segments, with the piece

@@ -22,6 +22,7 @@ namespace tetproof::oracles {
 //   triangles or none, and no hole is covered; triangles have the attributes of their regions, if
 //   the format has any;
 // - edge-list: the edges listed are those chains, each with the marker of its segment;
+// - edges: none is above --max-edge; else undecided, with a record named in the first line;
 // - angles: for information.
 // Where corners were not to be restored (--approximate): only complex, orientation and angles; the
 // rest is undecided unless there is a record (`recorded`). `deviation` gets the largest distance of

@@ -38,6 +38,8 @@ class PlaneFaces {
   void find_inside();
   std::vector<Index> outermost() const;
   std::optional<Crossing> crossing(Index piece, const Point& p) const;
+  double crossing_near(const PlaneGraph::Piece& piece, const Point& p) const;
+  bool is_beyond(const PlaneGraph::Piece& piece, const Point& p, double x) const;
   Index border_right_of(const Point& p);
 
   PlaneGraph& graph_;

@@ -38,8 +38,10 @@ PlaneGraph::PlaneGraph(const delmesher::PlanarGraph& graph) : graph_(graph) {
   if (!graph.vertices.empty()) diagonal_ = std::hypot(high[0] - low[0], high[1] - low[1]);
   std::vector<PlaneBoxes::Box> boxes;
   for (const auto& [a, b] : graph.segments) boxes.push_back(plane_box({&vertex(a), &vertex(b)}, 0));
+  segments_ = PlaneBoxes(boxes);
+  boxes.clear();
   for (Index v = 0; v < graph.vertices.size(); ++v) boxes.push_back(plane_box({&vertex(v)}, 0));
-  near_ = PlaneBoxes(boxes);
+  vertices_ = PlaneBoxes(boxes);
   cut_into_pieces();
   find_rings();
 }
@@ -52,7 +54,9 @@ void PlaneGraph::cut_into_pieces() {
     const Index a = graph_.segments[s][0], b = graph_.segments[s][1];
     if (!seen.insert(std::minmax(a, b)).second) continue;
     std::vector<std::pair<mpq_class, Index>> on = {{0, a}, {1, b}};
-    near_vertices(plane_box({&vertex(a), &vertex(b)}, 0), [&](Index v) {
+    const auto& [p, q] = std::pair(graph_.vertices[a], graph_.vertices[b]);
+    const double margin = 1e-9 * (largest_ + 1e-290);
+    vertices_.visit_near_line(plane_box({&vertex(a), &vertex(b)}, 0), p, q, margin, [&](Index v) {
       if (v == a || v == b || points_.orient(a, b, v) != 0) return;
       mpq_class t = points_.parameter(v, a, b);
       if (t > 0 && t < 1) on.emplace_back(std::move(t), v);

@@ -54,15 +54,11 @@ class PlaneGraph {
   // Calls meet(segment) or meet(vertex) for each whose box meets the given one.
   template <class Meet>
   void near_segments(const PlaneBoxes::Box& box, Meet&& meet) {
-    near_.visit(box, [&](Index item) {
-      if (item < graph_.segments.size()) meet(item);
-    });
+    segments_.visit(box, meet);
   }
   template <class Meet>
   void near_vertices(const PlaneBoxes::Box& box, Meet&& meet) {
-    near_.visit(box, [&](Index item) {
-      if (item >= graph_.segments.size()) meet(static_cast<Index>(item - graph_.segments.size()));
-    });
+    vertices_.visit(box, meet);
   }
 
  private:
@@ -72,7 +68,7 @@ class PlaneGraph {
 
   const delmesher::PlanarGraph& graph_;
   PlanePoints points_;
-  PlaneBoxes near_;  // the segments, then the vertices
+  PlaneBoxes segments_, vertices_;
   std::vector<Piece> pieces_;
   std::vector<std::vector<Index>> pieces_at_, pieces_of_;
   double largest_ = 0, diagonal_ = 0;

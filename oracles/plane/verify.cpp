@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 #include <set>
 
 #include "oracles/plane/complex.h"
@@ -84,10 +86,15 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
     }
   }
   if (record == nullptr && !options.promised.of_record.empty()) {
-    report.unproven = options.promised.of_record;
+    std::ranges::copy(options.promised.of_record, std::back_inserter(report.unproven));
     report.scope = "the mesh as written";
   }
   if (record != nullptr) {
+    if (record->delta < options.promised.delta) {
+      char text[100];
+      std::snprintf(text, sizeof text, "--delta above %.6g degrees", record->delta);
+      report.unproven.emplace_back(text);
+    }
     report.deviation =
         std::max(report.deviation, verify_record(input, file, *record, options, report));
   } else if (options.promised.max_vertices > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
@@ -193,6 +194,24 @@ std::string read_size_field(const std::string& path, std::vector<SizeSource>& so
     if (why.empty() && !(source.size > 0)) why = "sizes have to be above 0";
   }
   return why.empty() ? why : path + ": " + why;
+}
+
+void excuse_long_edges(const char* option, bool recorded, OracleReport& lengths,
+                       std::vector<std::string>& unproven) {
+  if (lengths.figure(kTooLong).value_or(0) == 0) return;
+  char text[100];
+  std::snprintf(text, sizeof text, "%s (%.0f edges are longer, up to %.3g times)", option,
+                lengths.figure(kTooLong).value_or(0), lengths.figure(kLargestEdge).value_or(0));
+  unproven.emplace_back(text);
+  if (recorded) {
+    lengths.promised = false;
+    lengths.violations = 0;
+    lengths.findings.clear();
+  } else {
+    lengths.undecided = true;
+    lengths.notes.emplace_back(
+        "edges at corners that were chamfered may be longer; a record (--exact) says where");
+  }
 }
 
 }  // namespace tetproof::oracles

@@ -128,9 +128,17 @@ constexpr Option kOptions[] = {
      .takes = Takes::word,
      .target = &Promise::improve,
      .words = kOffOn},
-    {.name = "--slivers", .tasks = kMesh, .takes = Takes::word, .words = kOffOn},
+    {.name = "--slivers",
+     .tasks = kMesh,
+     .takes = Takes::word,
+     .target = &Promise::slivers,
+     .words = kOffOn},
     {.name = "--msh", .tasks = kAll, .takes = Takes::word, .words = {"2.2", "4.1"}},
-    {.name = "--simplify-bridges", .tasks = kMesh, .takes = Takes::word, .words = kOffOn},
+    {.name = "--simplify-bridges",
+     .tasks = kMesh,
+     .takes = Takes::word,
+     .target = &Promise::simplify_bridges,
+     .words = kOffOn},
     {.name = "--preset",
      .tasks = kMesh | kPlane,
      .takes = Takes::word,
@@ -147,11 +155,11 @@ constexpr Option kOptions[] = {
     {"--output", kAll, Takes::outputs},
     {"--stats", kAll, Takes::file},
     {"--exact", kSurface | kPlane, Takes::file},
-    {"--save-chamfered", kMesh | kPlane, Takes::file},
+    {"--save-chamfered", kMesh | kPlane, Takes::file, &Promise::save_chamfered},
     {"--names", kSpace, Takes::file, &Promise::names},
     {"link", kMesh, Takes::choice, &Promise::link},
     {"bridges", kMesh, Takes::choice, &Promise::bridges},
-    {"order", kMesh, Takes::choice},
+    {"order", kMesh, Takes::choice, &Promise::order},
     {"steiner-point", kMesh | kPlane, Takes::choice, &Promise::steiner_point},
     {"kept-points", kMesh | kPlane, Takes::choice, &Promise::kept_points},
     {"enrichment", kMesh, Takes::choice, &Promise::enrichment},
@@ -169,18 +177,17 @@ const Option* find_option(const std::string& name, Task task) {
 }
 
 // Kept or not is seen in the refined mesh, in its surface, or in how it was made: not in a file
-// alone. In space the edges of a file are measured.
+// alone. The edges of a file are measured.
 bool is_of_record(const std::string& option, Task task) {
   constexpr std::string_view kBoth[] = {"--delta",          "--tau",    "--acute",
                                         "--chamfer-radius", "--preset", "--as-paper",
                                         "--approximate"},
-                             kOfMesh[] = {"--corner", "--gabriel", "--budget", "--improve"},
-                             kOfPlane[] = {"--max-edge"};
+                             kOfMesh[] = {"--corner", "--gabriel", "--budget", "--improve"};
   const auto among = [&](const auto& names) {
     return std::find(std::begin(names), std::end(names), option) != std::end(names);
   };
   if (task != Task::mesh && task != Task::plane) return false;
-  return among(kBoth) || (task == Task::mesh ? among(kOfMesh) : among(kOfPlane));
+  return among(kBoth) || (task == Task::mesh && among(kOfMesh));
 }
 
 void put(const Option& option, bool value, Promise& p) {
@@ -316,6 +323,7 @@ class PromiseReader {
         if (is_surface(option)) {
           p.may_keep = *value_ == "auto";
           if (p.may_keep) return {};
+          if (*value_ == option.words[0]) p.of_record.push_back(name + " " + *value_);
         }
         put(option, *value_ == option.words[1], p);
         if (*value_ == option.words[0] || *value_ == option.words[1]) return {};
@@ -487,7 +495,7 @@ class PromiseCheck {
       double tau = std::max(2 * promise_.tau, kLeast);
       while (!is(tau) && tau <= kLargest) tau *= 2;
       kept = tau <= kLargest * (1 + kSlack);
-      report_.figures.emplace_back("tau for the budget", recorded);
+      report_.figures.emplace_back(kTauForBudget, recorded);
     }
     demand(kept,
            "the record has tau " + number(recorded) + ", promised was " + number(promise_.tau));
@@ -520,7 +528,7 @@ class PromiseCheck {
 
 }  // namespace
 
-void Promise::settle(const ExactRecord& record) {
+void Promise::settle(const ExactRecord& record, double longest_edge) {
   if (!may_keep) return;
   Promise usual;
   set_defaults(Task::mesh, false, usual);
@@ -530,8 +538,10 @@ void Promise::settle(const ExactRecord& record) {
            &Promise::chamfer_radius, &Promise::budget) &&
       same(&Promise::gabriel, &Promise::approximate, &Promise::improve, &Promise::link,
            &Promise::bridges, &Promise::steiner_point, &Promise::kept_points, &Promise::enrichment,
-           &Promise::filter_pairs, &Promise::filter_chamfered, &Promise::no_guard) &&
-      region == usual.region;
+           &Promise::filter_pairs, &Promise::filter_chamfered, &Promise::no_guard, &Promise::order,
+           &Promise::slivers, &Promise::simplify_bridges, &Promise::save_chamfered) &&
+      region == usual.region && size_field.empty() &&
+      (max_edge == 0 || longest_edge <= max_edge * EdgeSizes::kMost);
   if (!may_keep || !record.refined.empty() || !record.segments.empty()) return;
   keep = true;
   set_kept(*this);
@@ -587,6 +597,10 @@ Promise promise_of(const delmesher::Options& options) {
   p.steiner_point = options.as_paper.steiner_point;
   p.kept_points = options.as_paper.kept_points;
   p.enrichment = options.as_paper.enrichment;
+  p.order = options.as_paper.order;
+  p.slivers = options.slivers;
+  p.simplify_bridges = options.simplify_bridges;
+  p.save_chamfered = options.want_chamfered;
   p.filter_pairs = options.as_paper.filter_pairs;
   p.filter_chamfered = options.as_paper.filter_chamfered;
   p.no_guard = options.as_paper.no_guard;

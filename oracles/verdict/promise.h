@@ -41,7 +41,10 @@ struct Promise {
   bool strict = false;        // without an exception
   bool names = false;         // sets are called by names of another file
   bool second_order = false;  // ten-node tetrahedra, in formats that have them
+  // No oracle looks at these, but where one is not so the surface may not be kept.
+  bool slivers = true, simplify_bridges = true, save_chamfered = false;
   // The choices of --as-paper that an oracle can see.
+  bool order = false;             // no oracle sees it either
   bool link = false;              // chamfers reach a third of the way to the link
   bool bridges = false;           // a bridge per triangle
   bool steiner_point = false;     // bad tetrahedra are split at their circumcentres
@@ -61,8 +64,9 @@ struct Promise {
   double max_vertices = 0;  // 0: no limit
 
   // If the surface may be kept, and the record is of no refined mesh, then it was to be kept. With
-  // an option that only the refinement uses it may not be.
-  void settle(const delmesher::ExactRecord& record);
+  // an option that only the refinement uses it may not be, nor with a bound on edges below the
+  // longest one of the input (input units).
+  void settle(const delmesher::ExactRecord& record, double longest_edge);
 
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
   // fraction of the diagonal: as stated, within what was asked for. If nothing is stated, `auto` is
@@ -96,12 +100,17 @@ Promise promise_of(const delmesher::PlaneOptions& options);
 // Checks the record's version, that it has exactly the sections that the promise needs, and that
 // its parameters are those promised or stricter ones. `diagonal`: of the input's bounding box, in
 // input units.
+// Figure: the tau of the record, where that promised was raised for a budget.
+inline constexpr char kTauForBudget[] = "tau for the budget";
 OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
                            unsigned version, double diagonal);
 
 // The same for a file without a record: at most --max-vertices vertices, and the deviation between
 // facets that it states (MeshFile::planar_within).
 OracleReport check_written(const Promise& promise, std::size_t vertices, double planar_within = 0);
+
+// What is not shown where sets are called by names of another file (--names).
+inline constexpr char kOtherNames[] = "--names";
 
 // The version of the sidecar that has all sections the oracles ask for.
 inline constexpr unsigned kRecordVersion = 6;

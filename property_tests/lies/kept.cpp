@@ -44,7 +44,35 @@ void exchange_diagonal(Told& told) {
   two = {apex, other, right};
 }
 
+// The surface may be kept, but not with this option.
+void keep_although(Told& told, void (*change)(Options&)) {
+  keep(told);
+  Options options;
+  change(options);
+  told.promise = promise_of(options);
+}
+
 const Lie kKept[] = {
+    {"kept with a size field", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) {
+                     o.size_field = {{{0, 0, 0}, 10}};
+                   }); }},
+    {"kept with longer edges than promised", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) { o.max_edge = 0.25; }); }},
+    {"kept with an angle promised", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) { o.delta = 10; }); }},
+    {"kept without slivers' treatment", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) { o.slivers = false; }); }},
+    {"kept without simpler bridges", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) { o.simplify_bridges = false; }); }},
+    {"kept in the paper's order", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) { o.as_paper.order = true; }); }},
+    {"kept where the chamfered surface was wanted", "promise",
+     [](Told& t) { keep_although(t, [](Options& o) { o.want_chamfered = true; }); }},
+    {"kept where it was to be split", "promise",
+     [](Told& t) {
+       keep_although(t, [](Options& o) { o.surface = delmesher::SurfaceChoice::split; });
+     }},
     {"a surface that was split told to be kept", "kept",
      [](Told& t) {
        keep(t);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "oracles/shared_data.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -224,11 +226,13 @@ TEST(Envelope, ACrustIsNoSolid) {
   }
 }
 
-// Skins around a core: the slack of the volumes grows with every skin.
-TEST(Envelope, OfACoreInSkinsHasTheCore) {
+// Skins around a core of some size: the slack of the volumes grows with every skin.
+class Skins : public testing::TestWithParam<double> {};
+
+TEST_P(Skins, HaveTheCore) {
   constexpr int kSkins = 12;
   constexpr double kStep = 0.6 * kAllowedOfSkins;
-  const auto radius = [](int layer) { return 1 + kStep * layer; };
+  const auto radius = [](int layer) { return GetParam() + kStep * layer; };
   Polyhedron input;
   MeshFile mesh;
   // Layer 0 is the core; skins are between layers 1 and 2, 3 and 4, ...
@@ -260,7 +264,18 @@ TEST(Envelope, OfACoreInSkinsHasTheCore) {
     points.assign(mesh.vertices);
     if (exact::orient3d(points, tet[0], tet[1], tet[2], tet[3]) < 0) std::swap(tet[0], tet[1]);
   }
-  const double share = kAllowedOfSkins / (2 * std::sqrt(3.0) * radius(2 * kSkins));
+  // So far away that cells of space are larger than the core.
+  const auto base = static_cast<Index>(input.vertices.size());
+  for (const Position& p : cube().vertices) input.vertices.push_back({p[0] + 9, p[1], p[2]});
+  for (const auto& [a, b, c] : cube().triangles)
+    input.triangles.push_back({a + base, b + base, c + base});
+  const auto beside = static_cast<Index>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), input.vertices.begin() + base, input.vertices.end());
+  for (Tet tet : cube_mesh().tetrahedra) {
+    for (Index& v : tet) v += beside;
+    mesh.tetrahedra.push_back(tet);
+  }
+  const double share = kAllowedOfSkins / diagonal_of(input);
   VerifyReport report;
   EXPECT_EQ(verify_envelope(input, mesh, share, {}, report), "");
   EXPECT_EQ(failed_first(report), "envelope-sides") << to_text(report);
@@ -273,6 +288,26 @@ TEST(Envelope, OfACoreInSkinsHasTheCore) {
   }
   EXPECT_EQ(verify_envelope(input, mesh, share, {}, report), "");
   EXPECT_EQ(failed_first(report), "") << to_text(report);
+  ASSERT_EQ(report.unproven.size(), 1U);
+  EXPECT_TRUE(report.unproven[0].starts_with("parts thinner than ")) << report.unproven[0];
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAllSizes, Skins, testing::Values(0.035, 0.1, 1.0));
+
+TEST(Envelope, SaysFirstWhatItDoesNotCompare) {
+  Polyhedron input = cube();
+  input.labels.assign(input.triangles.size(), 1);
+  input.labels[0] = 2;
+  VerifyOptions options;
+  EXPECT_EQ(parse_promise("mesh --max-edge 0.5 --tau 0.1", options.promised), "");
+  VerifyReport report;
+  EXPECT_EQ(verify_envelope(input, cube_mesh(), kShare, options, report), "");
+  EXPECT_EQ(report.verdict, Verdict::undecided) << to_text(report);
+  ASSERT_EQ(report.unproven.size(), 4U) << to_text(report);
+  EXPECT_TRUE(report.unproven[0].starts_with("--max-edge (")) << report.unproven[0];
+  EXPECT_EQ(report.unproven[1], "--tau");
+  EXPECT_EQ(report.unproven[2], "labels");
+  EXPECT_TRUE(report.unproven[3].starts_with("parts thinner than ")) << report.unproven[3];
 }
 
 }  // namespace

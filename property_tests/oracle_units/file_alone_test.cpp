@@ -413,7 +413,7 @@ TEST(FileAlone, HasNodesInTheMiddleOfEachEdgeWhereThisIs) {
 }
 
 TEST(FileAlone, SaysFirstWhatItDoesNotShow) {
-  const samples::Sample cube = samples::cube();
+  samples::Sample cube = samples::cube();
   const auto judged = [&](const char* promise) {
     VerifyReport report;
     VerifyOptions options;
@@ -431,6 +431,12 @@ TEST(FileAlone, SaysFirstWhatItDoesNotShow) {
   EXPECT_TRUE(text.starts_with("verdict: exact, of the mesh as written alone; not proven: --delta"))
       << text;
   EXPECT_NE(to_json(all).find("\"unproven\""), std::string::npos);
+  EXPECT_EQ(judged("mesh --surface split").unproven, std::vector<std::string>{"--surface split"});
+  EXPECT_EQ(judged("mesh --names set.txt").unproven, std::vector<std::string>{"--names"});
+  EXPECT_EQ(judged("mesh --order 2").verdict, Verdict::broken);
+  cube.mesh.has_second_order = false;
+  EXPECT_EQ(judged("mesh --order 2").unproven, std::vector<std::string>{kLinearOnly});
+  EXPECT_EQ(judged("mesh --order 2").verdict, Verdict::exact);
   const VerifyReport longer = judged("mesh --max-edge 0.1");
   EXPECT_EQ(longer.verdict, Verdict::undecided);
   ASSERT_EQ(longer.unproven.size(), 1U);
