@@ -68,6 +68,9 @@ Finding default_pipeline_holds(const delmesher::Surface& surface);
 // surfaces do, by counters.
 Finding complexity_holds(const delmesher::Surface& surface);
 
+// Verifying a damaged mesh takes no more steps per element than verifying others.
+Finding verification_cost_holds(Bytes bytes);
+
 // A planar graph is rejected exactly if it is invalid; else its mesh passes the oracles.
 Finding plane_holds(Bytes bytes);
 

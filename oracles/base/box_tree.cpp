@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/base/steps.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -120,6 +122,7 @@ void BoxTree::query(const Box& query, std::vector<Index>& found,
   stack[top++] = 0;
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
+    steps += 1 + node.count;
     if (!wanted(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first;

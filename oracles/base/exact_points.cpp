@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "oracles/base/distances.h"
+#include "oracles/base/steps.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -611,6 +612,7 @@ Number insphere_determinant(const std::array<std::array<Number, 3>, 4>& r) {
 }  // namespace
 
 ExactVector difference(const ExactPoints& points, Index from, Index to) {
+  steps += 8;
   if (points.is_integer(from) && points.is_integer(to)) {
     thread_local std::array<mpz_class, 3> origin;
     std::array<mpz_class, 3> x;
@@ -631,6 +633,7 @@ ExactNumber dot(const ExactVector& u, const ExactVector& v) {
 }
 
 ExactVector cross(const ExactVector& u, const ExactVector& v) {
+  steps += 16;
   return uniform(u, v) ? ExactNumber::cross(u, v) : product(u, v);
 }
 
@@ -732,6 +735,7 @@ Interval quick_volume6(const ExactPoints& points, const std::array<Index, 4>& te
 }
 
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  ++steps;
   const int quick = quick_volume6(points, {a, b, c, d}).sign();
   if (quick != 2) return quick;
   const int sign = rough_volume6(points, {a, b, c, d}).sign();
@@ -742,6 +746,7 @@ int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
 }
 
 int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e) {
+  steps += 4;
   const Interval rough = insphere_determinant<Interval>(
       {rough_difference(points, e, a), rough_difference(points, e, b),
        rough_difference(points, e, c), rough_difference(points, e, d)});
@@ -761,6 +766,7 @@ int dot_sign(const ExactPoints& points, Index apex, Index p, Index q) {
 }
 
 int dot_sign(const ExactPoints& points, Index a, Index b, Index p, Index q) {
+  ++steps;
   const int quick = quick_dot(points, a, b, p, q).sign();
   if (quick != 2) return quick;
   const int sign = dot(rough_difference(points, a, b), rough_difference(points, p, q)).sign();
@@ -769,6 +775,7 @@ int dot_sign(const ExactPoints& points, Index a, Index b, Index p, Index q) {
 }
 
 bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  steps += 2;
   const int sign =
       diametral<Interval>(rough_difference(points, a, b), rough_difference(points, a, c),
                           rough_difference(points, a, d))

@@ -13,6 +13,8 @@
 #include <limits>
 #include <new>
 
+#include "oracles/base/steps.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -236,6 +238,7 @@ std::string_view TextReader::word() {
 }
 
 std::string_view TextReader::word_in_line() {
+  steps += 2;
   skip_blanks(false);
   while (!at_its_end() && text_[at_] != ' ' && text_[at_] != '\t' && text_[at_] != '\r' &&
          text_[at_] != '\n') {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oracles/base/distances.h"
+#include "oracles/base/steps.h"
 #include "oracles/base/vectors.h"
 
 namespace tetproof::oracles {
@@ -78,6 +79,7 @@ Index VertexMatch::nearest_vertex(Index input_vertex) const {
 // Position of v along the edge (0 at its start, 1 at its end) and distance from its line, in
 // doubles: for choosing among neighbours when there is a tolerance.
 double EdgeChains::progress(const InputSurface::Edge& edge, Index v, double& distance) const {
+  steps += 2;
   const Position p = points_.nearest(edge.from), q = points_.nearest(edge.to),
                  r = points_.nearest(v);
   // Squares of lengths need not be doubles.

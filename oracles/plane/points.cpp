@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/base/steps.h"
+
 namespace tetproof {
 
 void PlanePoints::add(Point point) {
@@ -12,6 +14,7 @@ void PlanePoints::add(Point point) {
 
 int PlanePoints::orient(const Point& a, const Point& b, const Point& c) {
   ++checks;
+  ++oracles::steps;
   const double l = (b.dx - a.dx) * (c.dy - a.dy), r = (b.dy - a.dy) * (c.dx - a.dx);
   const double m = std::fabs(b.dx - a.dx) + std::fabs(b.dy - a.dy) + std::fabs(c.dx - a.dx) +
                    std::fabs(c.dy - a.dy);
@@ -22,6 +25,7 @@ int PlanePoints::orient(const Point& a, const Point& b, const Point& c) {
 
 int PlanePoints::in_circle(Index ia, Index ib, Index ic, Index id) {
   ++checks;
+  oracles::steps += 2;
   const Point &a = points_[ia], &b = points_[ib], &c = points_[ic], &d = points_[id];
   double sum = 0, scale = 0, largest = 0;
   const double ax = a.dx - d.dx, ay = a.dy - d.dy, bx = b.dx - d.dx, by = b.dy - d.dy,
@@ -45,6 +49,7 @@ int PlanePoints::in_circle(Index ia, Index ib, Index ic, Index id) {
 
 bool PlanePoints::encroaches(Index a, Index p, Index b) {
   ++checks;
+  oracles::steps += 32;
   const Point &u = points_[a], &v = points_[p], &w = points_[b];
   return sgn((u.x - v.x) * (w.x - v.x) + (u.y - v.y) * (w.y - v.y)) < 0;
 }
@@ -55,6 +60,7 @@ double PlanePoints::distance(Index a, Index b) const {
 
 // Exact except for the root: an end that is far away would blur doubles.
 double PlanePoints::distance_to_segment(Index v, Index a, Index b) const {
+  oracles::steps += 256;
   const Point &p = points_[v], &q = points_[a], &r = points_[b];
   const mpq_class x = r.x - q.x, y = r.y - q.y, u = p.x - q.x, w = p.y - q.y;
   const mpq_class square = x * x + y * y, along = u * x + w * y;
@@ -67,6 +73,7 @@ double PlanePoints::distance_to_segment(Index v, Index a, Index b) const {
 }
 
 mpq_class PlanePoints::parameter(Index v, Index a, Index b) const {
+  oracles::steps += 32;
   const Point &p = points_[v], &q = points_[a], &r = points_[b];
   if (r.x != q.x) return (p.x - q.x) / (r.x - q.x);
   return (p.y - q.y) / (r.y - q.y);
