@@ -224,6 +224,17 @@ TEST_F(Files, PackagesAreTheSameToBothReaders) {
   EXPECT_EQ(verify({path("a.3mf"), path("a.mesh")}), 0);
 }
 
+// Names of parts are the same in upper and lower case.
+TEST_F(Files, AModelThatIsThereTwiceIsRefused) {
+  using namespace delmesher::io;  // NOLINT: what writes archives
+  const std::string one = model("<object id='1'>" + kTet + "</object>", "<item objectid='1'/>");
+  for (const char* name : {"3d/3DModel.model", "/3D/3dmodel.model"}) {
+    write("a.3mf", Zip().add("3D/3dmodel.model", one).add(name, one).finish());
+    EXPECT_THROW(oracles::read_surface(path("a.3mf")), oracles::ReadError) << name;
+    EXPECT_FALSE(delmesher::io::read_surface(path("a.3mf")).ok()) << name;
+  }
+}
+
 TEST_F(Files, WhatSaysNothingIsRefused) {
   write_off("in.off", samples::l_shape().input);
   ASSERT_EQ(run("mesh -q --ascii " + path("in.off") + " -o " + path("out.mesh") + " -o " +

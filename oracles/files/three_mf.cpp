@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -30,9 +32,11 @@ class Archive {
     if (source == nullptr) throw std::bad_alloc();
     // Checked for consistency: also for a name that is twice in it.
     archive_.reset(zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error));
-    if (archive_ != nullptr) return;
-    zip_source_free(source);
-    fail("an archive that cannot be read: " + std::string(zip_error_strerror(&error)));
+    if (archive_ == nullptr) {
+      zip_source_free(source);
+      fail("an archive that cannot be read: " + std::string(zip_error_strerror(&error)));
+    }
+    check_names();
   }
 
   bool contains(const std::string& name) const { return place_of(name) >= 0; }
@@ -62,6 +66,17 @@ class Archive {
  private:
   [[noreturn]] void fail(const std::string& reason) const {
     throw ReadError(path_ + ": " + reason);
+  }
+  // Names that differ in case, or in a slash in front, name one part.
+  void check_names() const {
+    std::set<std::string> names;
+    for (zip_int64_t n = 0; n < zip_get_num_entries(archive_.get(), 0); ++n) {
+      std::string name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(n), 0);
+      for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (!names.insert(name.substr(name.starts_with('/') ? 1 : 0)).second) {
+        fail("two files of the name " + name);
+      }
+    }
   }
   // Without regard to case, and to a slash in front; negative if there is none.
   zip_int64_t place_of(const std::string& name) const {
