@@ -71,6 +71,8 @@ def cases():
     wall = voxels([(0, 0, 0), (1, 0, 0)])
     inner = [(wall[0].index((1, 0, 0)), wall[0].index((1, 1, 0)), wall[0].index((1, 1, 1))),
              (wall[0].index((1, 0, 0)), wall[0].index((1, 1, 1)), wall[0].index((1, 0, 1)))]
+    sheet = [(0.5, -1, -1), (0.5, 2, -1), (0.5, 2, 2), (0.5, -1, 2)]
+    yield "sheet", "sheet of 2 triangles meets", (points + sheet, one + [(8, 9, 10), (8, 10, 11)])
     yield "inner wall", "inner wall of 2 triangles", (wall[0], wall[1] + inner)
 
 

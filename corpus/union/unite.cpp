@@ -309,7 +309,8 @@ void Uniter::judge() {
     ask_others();
     return;
   }
-  fail(UnionCode::touching, where + ": it is not manifold there, and is not meshed as it is");
+  fail(UnionCode::touching,
+       where + ": no solid can be meshed like that; --separate 1e-4 moves them apart");
 }
 
 UnionResult Uniter::run(const Surface& surface) {

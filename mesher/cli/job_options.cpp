@@ -96,7 +96,6 @@ std::string help_of(const Value& option) {
   if (option.text.unit == options::Unit::seconds) help += ", seconds";
   if (is_flag(option) || option.kind == Kind::sources || option.text.zero_is_none) return help;
   const bool numeric = option.kind == Kind::number || option.kind == Kind::count;
-  if (!numeric) help += ": " + joined(words_of(option), " or ");
   help += " (" + value_text(option);
   if (numeric && option.text.bounds.high <= kFar) help += "; " + range_text(option.text.bounds);
   return help + ")";

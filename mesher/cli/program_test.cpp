@@ -146,7 +146,7 @@ TEST_F(Program, ALossOfRegionsIsSaid) {
   const std::string mesh =
       "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
       "1 1 1 0\nTetrahedra\n2\n1 2 3 4 1\n2 3 4 5 ";
-  const std::string lost = "warning: it has several regions, of which mesh.tet can tell nothing";
+  const std::string lost = "warning: mesh.tet has no place for the regions, which are lost there";
   write("in.mesh", mesh + "7\nEnd\n");
   EXPECT_EQ(run("improve in.mesh -o mesh.tet -o mesh.vtu"), 0);
   EXPECT_NE(text("err.txt").find(lost), std::string::npos) << text("err.txt");

@@ -113,7 +113,7 @@ inline constexpr std::tuple kTable{
          .words = {{{"auto", kPlanarAuto}}}},
         &Options::planar, &CheckOptions::planar),
     Row({.name = "budget",
-         .help = "tetrahedra wanted at most: tau doubles while more are predicted",
+         .help = "tetrahedra wanted at most: while more are predicted, the filter drops more",
          .bounds = {.high = 1e15},
          .zero_is_none = true,
          .promised = true},

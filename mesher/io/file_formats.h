@@ -42,14 +42,14 @@ inline std::vector<std::string> losses(const std::string& path, unsigned lacks, 
     unsigned bit;
     const char* what;
   };
-  static constexpr std::array<Text, 4> kTexts = {{{kLacksRegions, "it has several regions"},
-                                                  {kLacksSides, "it has an inside and an outside"},
-                                                  {kLacksLabels, "it has several labels"},
-                                                  {kLacksNames, "it has several names"}}};
+  static constexpr std::array<Text, 4> kTexts = {{{kLacksRegions, "regions"},
+                                                  {kLacksSides, "inside and outside"},
+                                                  {kLacksLabels, "labels"},
+                                                  {kLacksNames, "names"}}};
   std::vector<std::string> lost;
   for (const auto& [bit, what] : kTexts) {
     if ((lacks & there & bit) != 0) {
-      lost.push_back(std::string(what) + ", of which " + path + " can tell nothing");
+      lost.push_back(path + " has no place for the " + what + ", which are lost there");
     }
   }
   return lost;

@@ -96,9 +96,11 @@ void Recorder::finish() {
         "kept");
   }
   if (result_.status.ok() && s.dropped_segments > 0) {
-    result_.warnings.push_back("segments left to the last step, without a bound on angles: " +
-                               std::to_string(s.dropped_segments) +
-                               "; channels beside them are too narrow, see --tau");
+    const bool one = s.dropped_segments == 1;
+    result_.warnings.push_back(std::to_string(s.dropped_segments) +
+                               (one ? " segment lies" : " segments lie") +
+                               " in too narrow a gap (see --tau): left to the last step, without "
+                               "a bound on the angles there");
   }
   s.phase_seconds = session_.control.phase_seconds();
   s.predicate_filter = session_.predicates.counters.filter;

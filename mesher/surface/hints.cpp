@@ -238,10 +238,9 @@ std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& repor
     if (count_of(report, Kind::open_edge) > 0) {
       const std::uint64_t sheet = triangles_of_sheets(surface, report);
       if (sheet > 0) {
-        found.push_back(
-            {"a sheet of " + counted(sheet, "triangle") + " meets a closed body",
-             "an inner wall, or what sticks out: only what closes up bounds a solid, so "
-             "leave it out"});
+        found.push_back({"a sheet of " + counted(sheet, "triangle") + " meets a closed body",
+                         "an inner wall, or what sticks out: only what closes up bounds a solid, "
+                         "`delmesher repair --fill` removes the rest"});
       }
     } else if (report.components > 1 && !any_cross(surface, report)) {
       found.push_back({"bodies touch, and do not cross",

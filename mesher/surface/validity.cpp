@@ -388,15 +388,16 @@ class Checker {
       const std::uint64_t depth = nesting[c].depth;
       result_.report.warnings.push_back(
           "the closed surface of triangle " + text(std::uint64_t{first[c]}) + " (" +
-          text(std::uint64_t{size[c]}) + " triangles) is inside " + text(depth) +
-          (depth == 1 ? " other" : " others") +
-          (depth % 2 == 1 ? ", so it bounds a cavity: what it encloses is not meshed"
-                          : ", so it bounds a solid: what it encloses is meshed") +
-          " (it faced the other way)");
+          text(std::uint64_t{size[c]}) + " triangles) was turned round: it is inside " +
+          (depth == 0   ? "no other"
+           : depth == 1 ? "another"
+                        : text(depth) + " others") +
+          (depth % 2 == 1 ? ", so it bounds a cavity, which is not meshed"
+                          : ", so it bounds a solid, which is meshed"));
     }
     if (reversed > listed) {
       result_.report.warnings.push_back(text(reversed - listed) +
-                                        " more closed surfaces faced the other way");
+                                        " more closed surfaces were turned round");
     }
   }
 
