@@ -29,7 +29,7 @@ Json brief_verdict(const std::string& text) {
   const Json full = parsed(text);
   if (!full.is_object()) return nullptr;
   Json result = Json::object();
-  for (const char* key : {"verdict", "deviation_ulps", "error"}) {
+  for (const char* key : {"verdict", "unproven", "deviation_ulps", "error"}) {
     if (full.contains(key)) result[key] = full.at(key);
   }
   for (const Json& oracle : full.value("oracles", Json::array())) {

@@ -186,6 +186,21 @@ class Gate {
       add(FindingKind::oracle, base,
           fmt::format("oracle {} passed, {}", name, silent ? "was not asked" : "does not"));
     }
+    const std::set<std::string> before = unproven(base);
+    for (const std::string& promise : unproven(fresh)) {
+      if (before.contains(promise)) continue;
+      add(FindingKind::oracle, base, fmt::format("no longer proven: {}", promise));
+    }
+  }
+
+  // What the first line of a verdict names, without the numbers in brackets.
+  static std::set<std::string> unproven(const Run& run) {
+    std::set<std::string> promises;
+    for (const Json& promise : run.verdict.value("unproven", Json::array())) {
+      const std::string text = promise.get<std::string>();
+      promises.insert(text.substr(0, text.find(" (")));
+    }
+    return promises;
   }
 
   // If coordinates are written with a bit less, rounded points are twice as far off, and input

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "reports/gate.h"
 #include "reports/selection.h"
@@ -37,6 +39,7 @@ Run parsed(const RunRow& row) {
   Run run{row, {}, {}, object_of(row.verdict_json), object_of(row.stats_json), {}};
   try {
     run.verdict.value("error", "");
+    run.verdict.value("unproven", std::vector<std::string>{});
     for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
       // One that is there twice has passed if it has both times.
       const bool passed = oracle.value("passed", false);

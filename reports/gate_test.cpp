@@ -488,6 +488,22 @@ TEST(Gate, AnOracleThatFailsOrIsSilentIsARegression) {
   EXPECT_EQ(report.notes.size(), 1U);
 }
 
+TEST(Gate, APromiseThatIsNoLongerProvenIsARegression) {
+  auto base = campaign(5), fresh = campaign(5);
+  const auto say = [](RunRow& row, const char* promise) {
+    change(row, [=](Json&, Json&, Json& verdict) { verdict["unproven"] = {promise}; });
+  };
+  say(fresh[1], "--max-edge (2 edges are longer)");
+  const auto report = compare_campaigns(base, fresh);
+  expect_only(report, FindingKind::oracle, 1);
+  EXPECT_EQ(report.findings[0].text, "no longer proven: --max-edge");
+  say(base[1], "--max-edge (7 edges are longer)");
+  EXPECT_TRUE(compare_campaigns(base, fresh).findings.empty());
+  EXPECT_TRUE(compare_campaigns(fresh, campaign(5)).findings.empty());
+  const auto brief = rows_from_json(rows_to_json(base, {.brief = true, .stable = false}));
+  EXPECT_TRUE(compare_campaigns(brief, fresh).findings.empty());
+}
+
 TEST(Gate, AnOracleThatIsThereTwiceHasToPassTwice) {
   for (const bool failed_first : {true, false}) {
     auto fresh = campaign(5);
