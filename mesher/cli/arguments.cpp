@@ -212,9 +212,10 @@ unsigned jobs_of(const Given& given) {
   return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
 }
 
-bool has_text_form(const std::string& output) {
-  const std::string extension = std::filesystem::path(output).extension().string();
-  return io::equal_ignoring_case(extension, ".msh") || io::equal_ignoring_case(extension, ".vtu");
+bool any_is(const std::vector<std::string>& outputs, const char* extension) {
+  return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& output) {
+    return io::equal_ignoring_case(std::filesystem::path(output).extension().string(), extension);
+  });
 }
 
 // An option without effect is a mistake.
@@ -225,9 +226,12 @@ std::string idle_option(const Command& command, const Given& given) {
   if (given.options.contains("size_growth") && command.sizes_file.empty()) {
     return "--size-growth: of no effect without --size-field";
   }
-  if (command.write.ascii &&
-      std::none_of(command.outputs.begin(), command.outputs.end(), has_text_form)) {
+  const bool any_msh = any_is(command.outputs, ".msh");
+  if (command.write.ascii && !any_msh && !any_is(command.outputs, ".vtu")) {
     return "--ascii: of no effect but on .msh and .vtu";
+  }
+  if (command.write.msh != io::MshVersion::v4_1 && !any_msh) {
+    return "--msh: of no effect but on .msh";
   }
   return {};
 }

@@ -161,6 +161,9 @@ TEST(Arguments, GivenTwiceOrWithoutEffect) {
                      "--jobs: of no effect with one input, see --threads");
   expect_usage_error({"in.off", "-o", "a.mesh", "-o", "a.node", "--ascii"},
                      "--ascii: of no effect but on .msh and .vtu");
+  expect_usage_error({"in.off", "-o", "a.mesh", "-o", "a.vtu", "--msh", "2.2"},
+                     "--msh: of no effect but on .msh");
+  EXPECT_TRUE(parse({"in.off", "-o", "a.mesh", "-o", "a.msh", "--msh", "2.2"}).run);
   expect_usage_error({"in.off", "-o", "a.mesh", "--size-growth", "0.2"},
                      "--size-growth: of no effect without --size-field");
   EXPECT_TRUE(parse({"in.off", "-o", "a.mesh", "-o", "a.VTU", "--ascii"}).run);

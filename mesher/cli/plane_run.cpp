@@ -91,6 +91,12 @@ class GraphRunner : RunSteps {
 std::string GraphRunner::idle_option() const {
   const auto* repair = std::get_if<RepairOptions>(&command_.options);
   if (repair != nullptr && repair->fill) return "--fill";
+  if (const auto* check = std::get_if<CheckOptions>(&command_.options); check != nullptr) {
+    const CheckOptions usual;
+    if (check->acute != usual.acute) return "--acute";
+    if (check->corner != usual.corner) return "--corner";
+    if (check->planar != usual.planar) return "--planar";
+  }
   if (!command_.names_file.empty()) return "--names";
   return command_.label_angle != 0 ? "--label-by-angle" : "";
 }

@@ -373,6 +373,18 @@ TEST_F(Program, SavesTheChamferedSurface) {
   }
 }
 
+TEST_F(Program, AGraphHasNoCornersOfASurface) {
+  write("in.poly", "3 2 0 0\n1 0 0\n2 10 0\n3 10 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
+  for (const std::string option : {"--acute 3", "--corner 3", "--planar 0"}) {
+    EXPECT_EQ(run("check in.poly " + option), 2);
+    EXPECT_NE(text("err.txt").find(option.substr(0, option.find(' ')) +
+                                   ": of no effect on a planar graph"),
+              std::string::npos)
+        << text("err.txt");
+  }
+  EXPECT_EQ(run("check in.poly --acute 60"), 0);
+}
+
 TEST_F(Program, SavesTheChamferedGraph) {
   write("in.poly", "3 2 0 0\n1 0 0\n2 10 0\n3 10 1\n3 1\n1 1 2 5\n2 2 3 6\n3 3 1 7\n1\n1 9 0.5\n");
   EXPECT_EQ(run("plane in.poly -o mesh.off --save-chamfered chamfered.poly"), 4);  // all is a hole

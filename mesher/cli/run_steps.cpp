@@ -205,15 +205,20 @@ int RunSteps::conclude(const std::array<double, kPhaseCount>& phase_seconds,
                   seconds_of(phase, phase_seconds, facts_));
     tell(text);
   }
-  const std::string cells = std::string(" ") + written.cell_name;
+  const bool tetrahedra = std::string_view(written.cell_name) == "tetrahedra";
+  const auto cells_of = [&](std::uint64_t count) {
+    return std::to_string(count) + " " +
+           (count != 1   ? written.cell_name
+            : tetrahedra ? "tetrahedron"
+                         : "triangle");
+  };
   std::string line;
   for (const std::string& output : command_.outputs) line += (line.empty() ? "" : ", ") + output;
   char time[32];
   std::snprintf(time, sizeof time, " in %.1f s", seconds());
-  line += ": " + std::to_string(written.vertices) + " vertices, " + std::to_string(written.cells) +
-          cells + time;
+  line += ": " + std::to_string(written.vertices) + " vertices, " + cells_of(written.cells) + time;
   const std::string left =
-      std::to_string(written.flat) + " flat" + cells + " left in the written mesh";
+      std::to_string(written.flat) + " flat " + written.cell_name + " left in the written mesh";
   if (written.flat > 0 && written.inverted == 0) warn(left);
   written.quality.empty() ? remark(line) : say(line + "; " + written.quality);
   if (written.inverted == 0) return kDone;

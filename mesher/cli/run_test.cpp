@@ -21,7 +21,7 @@ TEST_F(Run, WritesEveryOutputAndIsSilent) {
   EXPECT_EQ(files(), 8U);
   EXPECT_EQ(go({path("in.off"), "-v", "-o", path("b.tet")}), kDone);
   EXPECT_NE(error_.find("refine "), std::string::npos);
-  EXPECT_NE(error_.find("b.tet: 4 vertices, 1 tetrahedra"), std::string::npos);
+  EXPECT_NE(error_.find("b.tet: 4 vertices, 1 tetrahedron"), std::string::npos);
 }
 
 TEST_F(Run, StatusesBecomeExitCodesAndLeaveNoOutput) {

@@ -125,7 +125,7 @@ TEST_F(Told, EndsWithALineOfQualityUnlessQuiet) {
   s.below_5 = 3;
   s.sharpest_dihedral = {1, 2, 0, 3};
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
-  const std::string counts = path("a.mesh") + ": 4 vertices, 1 tetrahedra in ";
+  const std::string counts = path("a.mesh") + ": 4 vertices, 1 tetrahedron in ";
   const std::string quality =
       " s; dihedral angles 54.74 to 90.00 degrees, 3 tetrahedra below 5, the smallest at (0.5, "
       "0.5, "
@@ -242,7 +242,7 @@ TEST_F(Told, ImproveSaysWhatThereWasBefore) {
   EXPECT_EQ(go({"improve", path("in.tet"), "-o", path("a.mesh"), "--stats", path("s.json")}),
             kDone);
   EXPECT_EQ(given.tetrahedra, answer_.mesh.tetrahedra);
-  EXPECT_TRUE(error_.starts_with(path("a.mesh") + ": 4 vertices, 1 tetrahedra in ")) << error_;
+  EXPECT_TRUE(error_.starts_with(path("a.mesh") + ": 4 vertices, 1 tetrahedron in ")) << error_;
   EXPECT_TRUE(
       error_.ends_with("; before: 7 tetrahedra, dihedral angles 1.50 to 175.00 degrees, "
                        "smallest face angle 2.00, 3 below 5 degrees\n"))

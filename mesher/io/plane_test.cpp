@@ -65,6 +65,8 @@ TEST(ReadPlane, ErrorsNameTheLine) {
   EXPECT_NE(error_of("", "f.txt").find("no points"), std::string::npos);
   EXPECT_EQ(error_of("0 0\n1\n", "f.txt"), "f.txt:2: y is missing");
   EXPECT_EQ(error_of("0 0\n1 two\n", "f.txt"), "f.txt:2: bad number 'two'");
+  EXPECT_NE(error_of("solid\nendsolid\n", "f.STL").find("f.STL:1: a surface: a planar graph is"),
+            std::string::npos);
 }
 
 TEST(ReadPlane, PolygonsShareBorders) {

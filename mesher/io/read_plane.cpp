@@ -239,6 +239,9 @@ void read_by_format(std::string_view bytes, const std::string& path, const NodeF
   } else if (has_extension(path, ".poly")) {
     result.format = "poly";
     read_triangle_poly(bytes, node_file, polling, result);
+  } else if (has_extension(path, ".stl") || has_extension(path, ".ply") ||
+             has_extension(path, ".3mf") || has_extension(path, ".smesh")) {
+    fail(at_line(1), "a surface: a planar graph is a .poly, an OFF or OBJ with z = 0, or rings");
   } else {
     result.format = "polygons";
     read_polygons(bytes, polling, result);

@@ -1,6 +1,7 @@
 #include "mesher/policies/budget.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include "mesher/refine/prediction.h"
@@ -41,9 +42,11 @@ double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, double eno
 }
 
 std::string over_budget(double tau, double budget) {
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g", tau);
   return "more tetrahedra are predicted than the budget of " +
-         std::to_string(static_cast<std::uint64_t>(budget)) + ", even with tau " +
-         std::to_string(tau);
+         std::to_string(static_cast<std::uint64_t>(budget)) + ", even if facets closer than " +
+         share + " of the diagonal wait for the last step";
 }
 
 }  // namespace
