@@ -101,6 +101,14 @@ TEST(PlaneTruths, AnAngleThatWasNotReachedIsTold) {
   }));
 }
 
+TEST(PlaneTruths, ReasonsOfDropsAreCounted) {
+  const oracles::VerifyReport report = verdict_on(honest());
+  const oracles::OracleReport* drops = report.find("refined-drops");
+  ASSERT_NE(drops, nullptr);
+  EXPECT_EQ(drops->figure("beside a narrow channel"), 1.0) << to_text(report);
+  EXPECT_EQ(drops->figure("no room between doubles"), std::nullopt);
+}
+
 // What is not shown, or not kept where corners came back, stands in the first line.
 TEST(PlaneTruths, SayFirstWhatIsNotShown) {
   Told told = honest();

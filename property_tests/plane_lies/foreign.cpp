@@ -101,6 +101,10 @@ const Lie kForeign[] = {
     {"a listed edge with another marker", "same-mesh", [](Told& t) { t.file.markers[2] = 77; }},
     {"no markers of the listed edges", "same-mesh", [](Told& t) { t.file.markers.clear(); }},
     {"no segments of the listed edges", "same-mesh", [](Told& t) { t.file.segments.clear(); }},
+    {"a listed edge that begins at no vertex", "complex",
+     [](Told& t) { t.file.edges[1][0] = static_cast<std::uint32_t>(t.file.vertices.size()); }},
+    {"a listed edge that ends at no vertex", "complex",
+     [](Told& t) { t.file.edges[1][1] = static_cast<std::uint32_t>(t.file.vertices.size()); }},
     {"a listed edge fewer", "same-mesh",
      [](Told& t) {
        t.file.edges.pop_back();
