@@ -214,6 +214,13 @@ size_t delmesher_result_tetrahedra(const delmesher_result* result, const uint32_
   return mesh.tetrahedra.size();
 }
 
+size_t delmesher_result_regions(const delmesher_result* result, const int32_t** numbers) {
+  if (result == nullptr) return 0;
+  const auto& regions = result->value.mesh.regions;
+  give(regions.data(), numbers);
+  return regions.size();
+}
+
 size_t delmesher_result_boundary(const delmesher_result* result, const uint32_t** corners,
                                  const int32_t** labels, const uint32_t** facets) {
   if (result == nullptr) return 0;

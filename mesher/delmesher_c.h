@@ -88,6 +88,8 @@ size_t delmesher_result_vertices(const delmesher_result* result, const double** 
  */
 size_t delmesher_result_tetrahedra(const delmesher_result* result, const uint32_t** corners,
                                    const uint8_t** inside);
+/* A number from 1 on for each tetrahedron, with the option regions = 1 (all); else nothing. */
+size_t delmesher_result_regions(const delmesher_result* result, const int32_t** numbers);
 /* The triangles that tile the surface: three numbers of vertices each, the label of the input, and
  * the facet. */
 size_t delmesher_result_boundary(const delmesher_result* result, const uint32_t** corners,

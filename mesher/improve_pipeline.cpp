@@ -46,8 +46,8 @@ std::string sizes_defect(const TetMesh& mesh) {
 
 // The regions of a mesh, numbered by their first tetrahedra. Each is a part of the inside for the
 // improvement, since every tetrahedron counts.
-struct Regions {
-  explicit Regions(const TetMesh& mesh) {
+struct GivenRegions {
+  explicit GivenRegions(const TetMesh& mesh) {
     std::map<Part, tetmesh::RegionId> ids;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
       const Part region = {mesh.inside.empty() ? std::uint8_t{1} : mesh.inside[t],
@@ -84,7 +84,7 @@ MeshStatistics statistics_of(const TetMesh& mesh, Session& s) {
 // The vertices in use in the order in which they were given, then new ones, and tetrahedra of them.
 // `became`: the present point of each given vertex.
 void take_tetrahedra(tetmesh::ConformingMesh improved, const std::vector<VertexId>& became,
-                     const Regions& regions, const PointStore& points, TetMesh& mesh,
+                     const GivenRegions& regions, const PointStore& points, TetMesh& mesh,
                      std::vector<std::uint32_t>& number) {
   std::vector<std::uint8_t> used(points.size(), 0);
   for (const auto& t : improved.tetrahedra) {
@@ -115,7 +115,7 @@ std::string counted(std::uint64_t n, const char* one, const char* many) {
 }
 
 // The conforming mesh that was given, turned if all of it was negative. Warnings tell of oddities.
-Status check(const TetMesh& given, const Regions& regions, Session& s, Result& result,
+Status check(const TetMesh& given, const GivenRegions& regions, Session& s, Result& result,
              tetmesh::ConformingMesh& mesh) {
   improve::CheckedMesh checked = improve::check_given(
       {given.vertices, given.tetrahedra, regions.of_tetrahedron, given.boundary}, s.control);
@@ -135,7 +135,7 @@ Status check(const TetMesh& given, const Regions& regions, Session& s, Result& r
 
 // The statistics of the mesh as given, without vertices of no tetrahedron.
 void measure_given(const TetMesh& given, const tetmesh::ConformingMesh& checked,
-                   const Regions& regions, Session& s, Result& result) {
+                   const GivenRegions& regions, Session& s, Result& result) {
   std::vector<VertexId> same(given.vertices.size());
   for (VertexId v = 0; v < same.size(); ++v) same[v] = v;
   TetMesh used;
@@ -150,7 +150,7 @@ void measure_given(const TetMesh& given, const tetmesh::ConformingMesh& checked,
 }
 
 // The improved mesh as it is written; its boundary is the one given.
-void take_result(const TetMesh& given, improve::ImproveResult improved, const Regions& regions,
+void take_result(const TetMesh& given, improve::ImproveResult improved, const GivenRegions& regions,
                  const PointStore& points, TetMesh& mesh) {
   std::vector<std::uint32_t> number;
   take_tetrahedra(std::move(improved.mesh), improved.became, regions, points, mesh, number);
@@ -180,7 +180,7 @@ Status improve_given(const TetMesh& given, Session& s, Result& result) {
   if (std::string defect = sizes_defect(given); !defect.empty()) {
     return {StatusCode::invalid_mesh, std::move(defect)};
   }
-  const Regions regions(given);
+  const GivenRegions regions(given);
   tetmesh::ConformingMesh mesh;
   if (Status status = check(given, regions, s, result, mesh); !status.ok()) return status;
   measure_given(given, mesh, regions, s, result);

@@ -25,10 +25,12 @@
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
 #include "mesher/results/recorder.h"
+#include "mesher/results/region_list.h"
 #include "mesher/results/rounding_input.h"
 #include "mesher/results/units.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
+#include "mesher/surface/complex.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher {
@@ -50,16 +52,38 @@ Phase phase_of(cdt::CdtStep step) {
   return kPhase[static_cast<std::size_t>(step)];
 }
 
+bool is_complex(const Session& s) {
+  return s.options.regions == Regions::all;
+}
+
+Status bounds_nothing() {
+  return {StatusCode::invalid_surface,
+          "the triangles bound no region: all that they divide is open to the outside"};
+}
+
+bool is_flat(const SurfaceTopology& topology, Predicates& predicates) {
+  const auto& [a, b, c] = topology.triangles.front();
+  return std::ranges::all_of(topology.triangles, [&, a = a, b = b, c = c](const auto& t) {
+    return std::ranges::all_of(t, [&](VertexId v) { return predicates.orient3d(a, b, c, v) == 0; });
+  });
+}
+
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
-// near-coplanar triangles in exactly one plane.
+// near-coplanar triangles in exactly one plane. A complex as it is given.
 Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
   s.control.enter(Phase::check);
-  const ValidityResult validity = check_validity(surface, true, s.control);
+  const Rules rules = is_complex(s) ? Rules::complex : Rules::solid;
+  const ValidityResult validity = check_validity(surface, true, s.control, kMostPlaces, rules);
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
-  recorder.planar(enter_surface(surface, validity, planes, s), validity);
-  return {};
+  if (rules == Rules::solid) {
+    recorder.planar(enter_surface(surface, validity, planes, s), validity);
+    return {};
+  }
+  s.surface.enter_given(build_topology(surface, s.points, s.predicates, rules));
+  recorder.planar({}, validity);
+  return is_flat(s.surface.topology(), s.predicates) ? bounds_nothing() : Status{};
 }
 
 // Sections 4 and 7, in turn until neither leaves anything to the other.
@@ -327,6 +351,7 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
 // The constrained Delaunay tetrahedrization of the surface alone.
 cdt::CdtResult plain_cdt(Session& s) {
   cdt::CdtInput input = enrich::plain_input(s.surface.topology());
+  if (is_complex(s)) input.partition = cdt::Partition::regions;
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
   return cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
 }
@@ -337,6 +362,7 @@ struct Keeping {
   Recorder& recorder;
   ConformingMesh mesh{};
   std::uint64_t missing = 0, left = 0;
+  std::size_t bare = 0;  // triangles with nothing inside on either side
 
   bool good_enough() const { return missing == 0; }
 
@@ -344,8 +370,17 @@ struct Keeping {
     cdt::CdtResult cdt = plain_cdt(s);
     recorder.tetrahedrized(cdt);
     mesh = std::move(cdt.mesh);
+    bare = 0;
     s.control.enter(Phase::improve);
+    // Local operations need all tetrahedra at a vertex, which hang together with those outside.
+    if (!is_complex(s) || !touches_itself(mesh)) drop_outside();
+  }
+  void drop_outside() {
     keep_inside(mesh);
+    if (is_complex(s)) bare += drop_bare_faces(mesh);
+  }
+  bool is_empty() const {
+    return std::ranges::count(mesh.region, kOutside) == std::ssize(mesh.region);
   }
   void fill_and_improve(bool unfinished = false) {
     improve::ImproveOptions options = improve_options(Region::interior, s);
@@ -361,7 +396,7 @@ struct Keeping {
   void enter_edges() {
     tetrahedrize();
     const std::vector<std::uint8_t>& is_flat = s.surface.topology().edge_is_flat;
-    if (std::ranges::find(is_flat, 1) == is_flat.end()) return;
+    if (is_empty() || std::ranges::find(is_flat, 1) == is_flat.end()) return;
     fill_and_improve(true);
     SurfaceTopology each = with_facet_per_triangle(s.surface.topology());
     improve::DiagonalsResult entered = improve::enter_diagonals(
@@ -387,7 +422,10 @@ Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder)
   Keeping keeping{s, recorder};
   keeping.enter_edges();
   climb(keeping, kKeeping, recorder.ladder());
+  if (keeping.is_empty()) return bounds_nothing();
   keeping.fill_and_improve();
+  keeping.drop_outside();
+  recorder.left_out(keeping.bare);
   recorder.kept(keeping.mesh, keeping.left);
   if (s.options.strict && keeping.left > 0) {
     return {StatusCode::limit_reached,
@@ -485,6 +523,12 @@ Result run_plain_cdt(const Surface& surface, const Options& options, const Local
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
+  if (options.regions == Regions::all) {
+    const MergedSurface merged = merge_repeated(surface);
+    Result result = in_ordinary_units(merged.surface, options, run_kept);
+    if (result.status.ok()) list_regions(merged, result);
+    return result;
+  }
   return in_ordinary_units(surface, options,
                            options.surface == SurfaceChoice::keep ? run_kept : run_mesh);
 }

@@ -282,6 +282,11 @@ py::dict dict_of(Result&& result) {
   stats["flat"] = s.rounding_flat;
   stats["max_surface_deviation"] = s.max_surface_deviation;
   d["stats"] = stats;
+  py::dict labels;  // of the regions that are in a solid
+  for (std::size_t n = 0; n < result.regions.size(); ++n) {
+    if (result.regions[n].label) labels[py::int_(n + 1)] = *result.regions[n].label;
+  }
+  d["region_labels"] = labels;
   put_mesh(d, std::move(result.mesh));
   return d;
 }

@@ -77,9 +77,12 @@ class CdtBuilder {
     result_.counters.facet_restarts = restarts_;
     begin(CdtStep::classify);
     std::size_t missing = 0;
-    inside_ = classify_tetrahedra(mesh, surface_, found_, chains_, control_, &missing);
-    if (input_.validate && !inside_.empty()) validate_facets(mesh, chains_, surface_, inside_);
-    return inside_.empty() ? surface_[missing].facet : kNone;
+    region_ =
+        classify_tetrahedra(mesh, surface_, found_, chains_, input_.partition, control_, &missing);
+    if (input_.validate && !region_.empty()) {
+      validate_facets(mesh, chains_, surface_, region_, input_.partition);
+    }
+    return region_.empty() ? surface_[missing].facet : kNone;
   }
 
   void begin(CdtStep step) const {
@@ -113,9 +116,10 @@ class CdtBuilder {
       if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
       const VertexId* v = mesh.vertices(t);
       result.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-      result.region.push_back(inside_[t] != 0 ? kInside : kOutside);
+      result.region.push_back(region_[t]);
+      const auto is_written = [&](TetId u) { return region_[u] != kOutside; };
       result.repeated_faces.push_back(
-          mesh.repeated_faces(t, [&](TetId u) { return inside_[u] == inside_[t]; }));
+          mesh.repeated_faces(t, [&](TetId u) { return is_written(u) == is_written(t); }));
     }
     result.boundary = std::move(surface_);
     result_.steiner = std::move(steiner_);
@@ -136,7 +140,7 @@ class CdtBuilder {
   std::vector<VertexId> steiner_;
   std::vector<SurfaceFace> surface_;
   std::vector<FaceHandle> found_;  // of each, as it was when it was recovered
-  std::vector<std::uint8_t> inside_;
+  std::vector<RegionId> region_;
   std::uint64_t restarts_ = 0;
   CdtResult result_;
 };

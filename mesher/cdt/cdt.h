@@ -1,5 +1,6 @@
-// Constrained Delaunay tetrahedrization of a valid surface, possibly enriched with further points
-// on and off it (section 6; Diazzi et al. 2023; Si and Gaertner 2011; Shewchuk 2000).
+// Constrained Delaunay tetrahedrization of a valid surface or complex, possibly enriched with
+// further points on and off it (section 6; Diazzi et al. 2023; Si and Gaertner 2011; Shewchuk
+// 2000).
 #pragma once
 
 #include <array>
@@ -26,6 +27,11 @@ enum class CdtStep : std::uint8_t {
   classify   // inside and outside
 };
 
+enum class Partition : std::uint8_t {
+  sides,   // kInside where an odd number of faces separates it from the unbounded part
+  regions  // each bounded part is a region of its own
+};
+
 // The input: points of a store, and for those on the surface their edge or facet.
 struct CdtInput {
   const SurfaceTopology* topology = nullptr;
@@ -36,12 +42,13 @@ struct CdtInput {
   std::vector<std::vector<VertexId>> on_edge;
   // Per facet: enriching points strictly inside it (not on its constrained edges).
   std::vector<std::vector<VertexId>> on_facet;
+  Partition partition = Partition::sides;
   // Told when a step begins; empty: nobody asks.
   std::function<void(CdtStep)> on_step;
   // Check what the steps promise, and throw InternalError if it does not hold. After `segments`:
   // the tetrahedrization is Delaunay, and every subsegment is an edge. After `classify`: every
   // triangle of every facet is a face, every other face is locally Delaunay, and the two tetrahedra
-  // at a face are on different sides exactly if it is on a facet.
+  // at a face are of different regions only if it is on a facet, always if there are two sides.
   bool validate = kValidating;
 };
 

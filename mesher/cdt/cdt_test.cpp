@@ -90,7 +90,7 @@ TEST(Cdt, ValidateReportsBrokenPromises) {
   mesh.build(model.input.vertices, model.control);
   const Chains chains(model.input, model.points);
   EXPECT_EQ(complaint([&] { validate_segments(mesh, chains); }), "");
-  std::vector<std::uint8_t> inside(mesh.capacity(), 0);
+  std::vector<RegionId> inside(mesh.capacity(), kOutside);
   TetId finite = 0;
   for (TetId t = 0; t < mesh.capacity(); ++t) {
     if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
@@ -98,14 +98,14 @@ TEST(Cdt, ValidateReportsBrokenPromises) {
     finite = t;
   }
   const auto said = [&](const std::vector<SurfaceFace>& faces, const auto& sides) {
-    return complaint([&] { validate_facets(mesh, chains, faces, sides); });
+    return complaint([&] { validate_facets(mesh, chains, faces, sides, Partition::sides); });
   };
   EXPECT_EQ(said(surface, inside), "");
-  std::vector<std::uint8_t> other = inside;
+  std::vector<RegionId> other = inside;
   other[finite] = 0;
-  EXPECT_EQ(said(surface, other), "sides change elsewhere than at a facet");
+  EXPECT_EQ(said(surface, other), "regions change elsewhere than at a facet");
   std::vector<SurfaceFace> faces(surface.begin(), surface.end() - 1);
-  EXPECT_EQ(said(faces, inside), "sides change elsewhere than at a facet");
+  EXPECT_EQ(said(faces, inside), "regions change elsewhere than at a facet");
   faces.push_back(faces[0]);
   EXPECT_EQ(said(faces, inside), "a triangle of a facet is there twice");
   faces = surface;
@@ -117,6 +117,33 @@ TEST(Cdt, ValidateReportsBrokenPromises) {
   delaunay.build(twisted.input.vertices, twisted.control);
   const Chains edges(twisted.input, twisted.points);
   EXPECT_EQ(complaint([&] { validate_segments(delaunay, edges); }), "a subsegment is not an edge");
+}
+
+// Three boxes in each other: of two sides the middle one is out; as regions each is its own.
+TEST(Cdt, RegionsAreNumberedAndSidesAlternate) {
+  Surface nested = box(0, 8);
+  append(nested, inside_out(box(1, 7)));
+  append(nested, box(2, 6));
+  Model model(nested);
+  const auto volume_of = [&](const CdtResult& result, RegionId region) -> mpq_class {
+    ConformingMesh part;
+    for (std::size_t t = 0; t < result.mesh.tetrahedra.size(); ++t) {
+      if (result.mesh.region[t] == region) part.tetrahedra.push_back(result.mesh.tetrahedra[t]);
+    }
+    return volume(model.points, part) / 6;
+  };
+  const CdtResult sides = model.run();
+  EXPECT_EQ(volume_of(sides, kOutside), 6 * 6 * 6 - 4 * 4 * 4);
+  EXPECT_EQ(volume_of(sides, kInside), 8 * 8 * 8 - 6 * 6 * 6 + 4 * 4 * 4);
+  model.input.partition = Partition::regions;
+  const CdtResult regions = model.run();
+  EXPECT_EQ(volume_of(regions, kOutside), 0);
+  std::set<mpq_class> volumes;
+  for (RegionId region = kInside; region < kInside + 3; ++region) {
+    volumes.insert(volume_of(regions, region));
+  }
+  EXPECT_EQ(volumes,
+            (std::set<mpq_class>{8 * 8 * 8 - 6 * 6 * 6, 6 * 6 * 6 - 4 * 4 * 4, 4 * 4 * 4}));
 }
 
 TEST(Cdt, StepsAreToldInTheirOrder) {
@@ -136,10 +163,12 @@ TEST(Cdt, ValidateLooksAtAllAndCountsNothing) {
   Tetrahedrization mesh(model.predicates);
   mesh.build(model.input.vertices, model.control);
   const Chains chains(model.input, model.points);
-  std::vector<std::uint8_t> inside(mesh.capacity(), 0);
-  for (TetId t = 0; t < mesh.capacity(); ++t) inside[t] = mesh.alive(t) && !mesh.is_ghost(t);
+  std::vector<RegionId> inside(mesh.capacity(), kOutside);
+  for (TetId t = 0; t < mesh.capacity(); ++t)
+    inside[t] = mesh.alive(t) && !mesh.is_ghost(t) ? kInside : kOutside;
   const PredicateCounters before = model.predicates.counters;
-  EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside); }), "");
+  EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside, Partition::sides); }),
+            "");
   const PredicateCounters& after = model.predicates.counters;
   EXPECT_EQ(before.filter, after.filter);
   EXPECT_EQ(before.support, after.support);
@@ -148,8 +177,8 @@ TEST(Cdt, ValidateLooksAtAllAndCountsNothing) {
   EXPECT_EQ(before.symbolic, after.symbolic);
   ASSERT_TRUE(mesh.alive(0));
   inside[0] = 2;
-  EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside); }),
-            "a tetrahedron outside the hull is inside, or a side is neither 0 nor 1");
+  EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside, Partition::sides); }),
+            "a tetrahedron outside the hull is inside, or one of two sides is a third one");
 }
 
 // Three edges of a box end at each corner; a point inside an edge has a part of it on both sides.

@@ -18,15 +18,14 @@ bool is_face(const Tetrahedrization& mesh, FaceHandle face, const std::array<Ver
   return others == face.face();
 }
 
-}  // namespace
+constexpr RegionId kUnknown = kNone;
 
-std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
-                                              std::span<const SurfaceFace> surface,
-                                              std::span<const FaceHandle> found,
-                                              const Chains& chains, Control& control,
-                                              std::size_t* missing) {
-  constexpr std::uint8_t kUnknown = 2;
-  std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
+// Which faces of each tetrahedron are on the surface: bit i for face i. Empty if one of the surface
+// is missing.
+std::vector<std::uint8_t> find_walls(Tetrahedrization& mesh, std::span<const SurfaceFace> surface,
+                                     std::span<const FaceHandle> found, const Chains& chains,
+                                     Control& control, std::size_t* missing) {
+  std::vector<std::uint8_t> walls(mesh.capacity(), 0);
   for (std::size_t n = 0; n < surface.size(); ++n) {
     control.poll();
     const auto& v = surface[n].vertices;
@@ -39,29 +38,66 @@ std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
       walls[side.tet()] |= static_cast<std::uint8_t>(1U << side.face());
     }
   }
-  std::vector<std::uint8_t> inside(mesh.capacity(), kUnknown);
-  std::vector<TetId> queue;
-  for (TetId t = 0; t < mesh.capacity(); ++t) {
-    if (mesh.alive(t) && mesh.is_ghost(t)) {
-      inside[t] = 0;
-      queue.push_back(t);
+  return walls;
+}
+
+class Flood {
+ public:
+  Flood(const Tetrahedrization& mesh, const std::vector<std::uint8_t>& walls, Control& control)
+      : mesh_(mesh), walls_(walls), control_(control), region_(mesh.capacity(), kUnknown) {}
+
+  std::vector<RegionId> run(Partition partition) {
+    for (TetId t = 0; t < mesh_.capacity(); ++t) {
+      if (mesh_.alive(t) && mesh_.is_ghost(t)) enter(t, kOutside);
     }
+    spread(partition);
+    RegionId next = kInside;
+    for (TetId t = 0; t < mesh_.capacity(); ++t) {
+      if (!mesh_.alive(t) || region_[t] != kUnknown) continue;
+      enter(t, next++);
+      spread(partition);
+    }
+    return std::move(region_);
   }
-  while (!queue.empty()) {
-    control.poll();
-    const TetId t = queue.back();
-    queue.pop_back();
-    for (int i = 0; i < 4; ++i) {
-      const TetId u = mesh.neighbor(t, i);
-      const auto value = static_cast<std::uint8_t>(inside[t] ^ ((walls[t] >> i) & 1U));
-      if (inside[u] == kUnknown) {
-        inside[u] = value;
-        queue.push_back(u);
+
+ private:
+  void enter(TetId t, RegionId region) {
+    region_[t] = region;
+    queue_.push_back(t);
+  }
+  void spread(Partition partition) {
+    while (!queue_.empty()) {
+      control_.poll();
+      const TetId t = queue_.back();
+      queue_.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        const TetId u = mesh_.neighbor(t, i);
+        const bool wall = ((walls_[t] >> i) & 1U) != 0;
+        if (wall && partition == Partition::regions) continue;
+        const RegionId value = wall ? kInside - region_[t] : region_[t];
+        if (region_[u] == kUnknown) enter(u, value);
+        DELMESHER_CHECK(region_[u] == value, "the surface does not separate inside from outside");
       }
-      DELMESHER_CHECK(inside[u] == value, "the surface does not separate inside from outside");
     }
   }
-  return inside;
+
+  const Tetrahedrization& mesh_;
+  const std::vector<std::uint8_t>& walls_;
+  Control& control_;
+  std::vector<RegionId> region_;
+  std::vector<TetId> queue_;
+};
+
+}  // namespace
+
+std::vector<RegionId> classify_tetrahedra(Tetrahedrization& mesh,
+                                          std::span<const SurfaceFace> surface,
+                                          std::span<const FaceHandle> found, const Chains& chains,
+                                          Partition partition, Control& control,
+                                          std::size_t* missing) {
+  const std::vector<std::uint8_t> walls =
+      find_walls(mesh, surface, found, chains, control, missing);
+  return walls.empty() ? std::vector<RegionId>() : Flood(mesh, walls, control).run(partition);
 }
 
 }  // namespace delmesher::cdt

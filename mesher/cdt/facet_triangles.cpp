@@ -72,7 +72,7 @@ void FacetTriangulator::collect_boundary(FacetId facet) {
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
       const std::uint32_t edge = topology_.edge_of[h];
       if (topology_.edge_is_flat[edge] != 0) continue;
-      const bool forward = h == topology_.edge_half_edge[edge];
+      const bool forward = topology_.from(h) < topology_.to(h);
       for (std::uint32_t n = chains_.first(edge); chains_.is_subsegment(n);
            n = chains_.node(n).next) {
         const VertexId a = chains_.node(n).vertex, b = chains_.next(n).vertex;

@@ -16,7 +16,11 @@ namespace delmesher::cdt::test_models {
 struct Model {
   using Build = SurfaceTopology (*)(const Surface&, PointStore&, Predicates&);
 
-  explicit Model(const Surface& given, Build build = build_topology)
+  static SurfaceTopology build_solid(const Surface& s, PointStore& points, Predicates& predicates) {
+    return build_topology(s, points, predicates);
+  }
+
+  explicit Model(const Surface& given, Build build = build_solid)
       : control(options), predicates(points) {
     const ValidityResult validity = check_validity(given, true, control);
     valid = validity.report.defects.empty();

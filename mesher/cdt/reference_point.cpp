@@ -54,9 +54,13 @@ void ReferenceFinder::consider(VertexId v, VertexId a, VertexId b, double length
   if (v == best) return;
   const Vec3 f = scaled_difference(points_.difference(v, a), {}, length),
              g = scaled_difference(points_.difference(v, b), {}, length);
-  if (!(dot(f, g) < 0)) return;
+  const double both = dot(f, f) * dot(g, g), cosine = dot(f, g);
+  // Perturbation may have one on the sphere in the way: edges of lengths 1 and root 2 that meet at
+  // 45 degrees, halved in turn, have such points for ever.
+  constexpr double kOnSphere = 0x1p-80;
+  if (!(cosine < 0 || cosine * cosine <= kOnSphere * both)) return;
   const Vec3 normal = cross(f, g);
-  const double sine = dot(normal, normal) / (dot(f, f) * dot(g, g));
+  const double sine = dot(normal, normal) / both;
   if (sine < best_sine || (sine == best_sine && v < best)) {
     best = v;
     best_sine = sine;

@@ -16,9 +16,9 @@ class ReferenceFinder {
       : mesh_(mesh), predicates_(mesh.predicates()), points_(points), control_(control) {}
 
   // Looks at the vertices of the tetrahedra around a and of those that the segment ab crosses, as
-  // far as they are in its diametral ball. Gives the vertex with the largest circle through it, a
-  // and b, or kNone. Computed in doubles, because it only guides. As it visits the star of a, let a
-  // be the end of lower degree.
+  // far as they are in its diametral ball, or all but on its sphere. Gives the vertex with the
+  // largest circle through it, a and b, or kNone. Computed in doubles, because it only guides. As
+  // it visits the star of a, let a be the end of lower degree.
   VertexId find(VertexId a, VertexId b);
 
  private:

@@ -92,15 +92,13 @@ bool SplitRule::runs_along(std::uint32_t edge, VertexId v, double sine) const {
   if (const std::uint32_t n = chains_.node_of(v); n != kNone) {
     return sine_between(edge, chains_.node(n).edge) <= sine;
   }
-  const std::uint32_t start = v < s.vertex_half_edge.size() ? s.vertex_half_edge[v] : kNone;
-  if (start == kNone) return false;
-  std::uint32_t h = start;
-  do {
-    const std::uint32_t other = s.edge_of[h];
-    if (s.edge_is_flat[other] == 0 && sine_between(edge, other) <= sine) return true;
-    h = s.opposite[SurfaceTopology::previous(h)];
-  } while (h != start);
-  return false;
+  if (v >= s.vertex_half_edge.size()) return false;
+  bool along = false;
+  s.for_each_edge_at(v, [&](std::uint32_t other) {
+    along = s.edge_is_flat[other] == 0 && sine_between(edge, other) <= sine;
+    return !along;
+  });
+  return along;
 }
 
 double SplitRule::sine_between(std::uint32_t e, std::uint32_t f) const {

@@ -24,7 +24,8 @@ void validate_segments(Tetrahedrization& mesh, const Chains& chains) {
 }
 
 void validate_facets(Tetrahedrization& mesh, const Chains& chains,
-                     std::span<const SurfaceFace> surface, std::span<const std::uint8_t> inside) {
+                     std::span<const SurfaceFace> surface, std::span<const RegionId> region,
+                     Partition partition) {
   mesh.validate(false);
   validate_edges(mesh, chains);
   std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
@@ -42,13 +43,16 @@ void validate_facets(Tetrahedrization& mesh, const Chains& chains,
   for (TetId t = 0; t < mesh.capacity(); ++t) {
     if (!mesh.alive(t)) continue;
     const bool ghost = mesh.is_ghost(t);
-    DELMESHER_CHECK(inside[t] == 0 || (inside[t] == 1 && !ghost),
-                    "a tetrahedron outside the hull is inside, or a side is neither 0 nor 1");
+    DELMESHER_CHECK(region[t] == kOutside ||
+                        (!ghost && (region[t] == kInside || partition == Partition::regions)),
+                    "a tetrahedron outside the hull is inside, or one of two sides is a third one");
     const VertexId* w = mesh.vertices(t);
     for (int i = 0; i < 4; ++i) {
       const TetId u = mesh.neighbor(t, i);
       const bool wall = (walls[t] >> i & 1) != 0;
-      DELMESHER_CHECK((inside[t] != inside[u]) == wall, "sides change elsewhere than at a facet");
+      const bool changes = region[t] != region[u];
+      DELMESHER_CHECK(changes == wall || (wall && partition == Partition::regions),
+                      "regions change elsewhere than at a facet");
       if (wall || ghost || mesh.is_ghost(u)) continue;
       DELMESHER_CHECK(predicates.insphere_perturbed(w[0], w[1], w[2], w[3],
                                                     mesh.vertex(u, mesh.mirror(t, i))) < 0,

@@ -14,9 +14,11 @@ namespace delmesher::cdt {
 void validate_segments(Tetrahedrization& mesh, const Chains& chains);
 
 // Throws InternalError unless the structure is sound, every subsegment is an edge and every
-// triangle of `surface` a face, every other face is locally Delaunay, and `inside` (by tetrahedron)
-// changes across the triangles of `surface` and nowhere else, being 0 outside the hull.
+// triangle of `surface` a face, every other face is locally Delaunay, and `region` (by
+// tetrahedron) changes across no other face, and of two sides across each of them, being kOutside
+// outside the hull.
 void validate_facets(Tetrahedrization& mesh, const Chains& chains,
-                     std::span<const SurfaceFace> surface, std::span<const std::uint8_t> inside);
+                     std::span<const SurfaceFace> surface, std::span<const RegionId> region,
+                     Partition partition);
 
 }  // namespace delmesher::cdt

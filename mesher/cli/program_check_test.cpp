@@ -228,11 +228,10 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
   const auto [a0, a1, a] = box(0, 0);
   const auto [b0, b1, b] = box(1, 0);
   const auto [c0, c1, c] = box(1, 1);
-  EXPECT_EQ(
-      hints_of(a0 + a1 + a + b1 + b),
-      "  hint: an inner wall of 2 triangles: triangle 2 at (1, 0, 0) is the first; with 2 "
-      "parts inside this is not one solid, and only such are meshed: leave walls out, or mesh "
-      "the parts one by one\n");
+  EXPECT_EQ(hints_of(a0 + a1 + a + b1 + b),
+            "  hint: an inner wall of 2 triangles: triangle 2 at (1, 0, 0) is the first; with 2 "
+            "parts inside this is not one solid: `delmesher mesh --regions all` meshes each as a "
+            "region, or leave walls out\n");
   EXPECT_NE(
       text("err.txt").find("(in all 4 non-manifold edges: an inner wall of 2 triangles; see "),
       std::string::npos)
@@ -242,8 +241,7 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
             std::string::npos);
   EXPECT_EQ(hints_of(a0 + a1 + a + b0 + b1 + b),
             "  hint: bodies, or parts of one, touch in 2 triangles: `delmesher repair` makes one "
-            "of them, or mesh them "
-            "one by one\n");
+            "of them, or `delmesher mesh --regions all` meshes each as a region\n");
   EXPECT_EQ(run("repair in.off -o mended.off"), 0) << text("err.txt");
   EXPECT_EQ(hints_of(a0 + a1 + a + b1 + b).substr(0, 40),
             "  hint: an inner wall of 2 triangles: tr");
@@ -253,7 +251,7 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
       << text("err.txt");
   EXPECT_EQ(hints_of(a0 + a1 + a + c0 + c1 + c),
             "  hint: bodies, or parts of one, touch along 1 edge: `tetproof union --separate 1e-4` "
-            "moves them apart, or mesh them one by one\n");
+            "moves them apart, or `delmesher mesh --regions all` meshes each as a region\n");
   // A wall that has no vertices in common with the box around it.
   const std::string long_box =
       "0 0 0\n2 0 0\n0 1 0\n2 1 0\n0 0 1\n2 0 1\n0 1 1\n2 1 1\n1 0 0\n1 1 0\n1 0 1\n1 1 1\n";

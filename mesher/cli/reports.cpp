@@ -313,6 +313,30 @@ std::string kept_text(const std::string& file, const Statistics& s) {
          " tetrahedra, as predicted";
 }
 
+io::LabelNames region_names(const std::vector<MeshRegion>& regions, const io::LabelNames& labels) {
+  io::LabelNames names;
+  for (std::size_t n = 0; n < regions.size(); ++n) {
+    const auto name = regions[n].label ? labels.find(*regions[n].label) : labels.end();
+    if (name != labels.end()) names.emplace(static_cast<std::int32_t>(n + 1), name->second);
+  }
+  return io::distinct_names(names);
+}
+
+std::string regions_text(const std::string& file, const std::vector<MeshRegion>& regions,
+                         const io::LabelNames& names) {
+  constexpr std::size_t kMost = 8;
+  std::string text =
+      file + ": " + std::to_string(regions.size()) + (regions.size() == 1 ? " region" : " regions");
+  for (std::size_t n = 0; n < std::min(regions.size(), kMost); ++n) {
+    const auto name = names.find(static_cast<std::int32_t>(n + 1));
+    text += (n == 0 ? ": " : ", ") +
+            (name != names.end() ? name->second : "region " + std::to_string(n + 1)) +
+            " of volume " + number(regions[n].volume);
+  }
+  if (regions.size() > kMost) text += ", and " + std::to_string(regions.size() - kMost) + " more";
+  return text;
+}
+
 std::vector<std::string> limits_texts(const Statistics& s) {
   std::vector<std::string> texts;
   const std::uint64_t guard_stops = s.ladder[Rung::empty_balls] + s.ladder[Rung::chamfers_nearby] +

@@ -34,6 +34,12 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
 // The line about a surface that is kept because bounded angles would be heavy.
 std::string kept_text(const std::string& file, const Statistics& s);
 
+// The names of regions: of the solids that they lie in.
+io::LabelNames region_names(const std::vector<MeshRegion>& regions, const io::LabelNames& labels);
+// One line on the regions: names and volumes.
+std::string regions_text(const std::string& file, const std::vector<MeshRegion>& regions,
+                         const io::LabelNames& names);
+
 // One line on the triangles that were merged because they are planar within the bound: to the end
 // or, in a mesh of the surface as given, while they were refined.
 std::string planar_text(const std::string& file, const Statistics& statistics, bool as_given);

@@ -106,8 +106,10 @@ void Runner::count_defects(Status& status) const {
 
 io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) const {
   io::WriteStatus status;
+  io::WriteOptions write = command_.write;
+  write.region_names = region_names(result.regions, names_);
   for (const std::string& output : command_.outputs) {
-    status = warned(io::write_mesh(outputs, output, result.mesh, names_, command_.write));
+    status = warned(io::write_mesh(outputs, output, result.mesh, names_, write));
     if (!status.ok()) return status;
   }
   if (!command_.chamfered_file.empty()) {
@@ -137,11 +139,15 @@ int Runner::mesh() {
     const std::string text = planar_text(command_.input, s, as_given);
     far ? say(text) : remark(text);
   }
+  if (!result.regions.empty()) {
+    remark(regions_text(command_.input, result.regions, region_names(result.regions, names_)));
+  }
   if (s.ladder[Rung::keep_surface] > 0) remark(kept_text(command_.input, s));
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
   if (result.status.ok() && options != nullptr) {
-    const bool kept = options->surface == SurfaceChoice::keep || s.ladder[Rung::keep_surface] > 0;
+    const bool kept = options->surface == SurfaceChoice::keep || options->regions == Regions::all ||
+                      s.ladder[Rung::keep_surface] > 0;
     for (std::string& warning : quality_warnings(result, kept ? 0 : options->delta)) {
       result.warnings.push_back(std::move(warning));
     }

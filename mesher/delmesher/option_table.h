@@ -73,6 +73,13 @@ inline constexpr std::tuple kTable{
          .with_kept_surface = true,
          .words = {{{"split", 0}, {"keep", 1}, {"auto", 2}}}},
         &Options::surface),
+    Row({.name = "regions",
+         .help = "solid: what the triangles bound is one; all: each part of space that they divide "
+                 "off is one, with walls and sheets; needs the surface kept",
+         .promised = true,
+         .with_kept_surface = true,
+         .words = {{{"solid", 0}, {"all", 1}}}},
+        &Options::regions),
     Row({.name = "strict",
          .help = "with --surface keep: fail where an added vertex cannot leave the surface",
          .promised = true,

@@ -23,12 +23,23 @@ enum class SurfaceChoice : std::uint8_t {
   automatic
 };
 
+// What the triangles bound.
+enum class Regions : std::uint8_t {
+  // One solid: they are closed, manifold surfaces, and what an odd number of them surrounds is in.
+  solid,
+  // Every bounded part of space that they divide off is a region of its own, with all triangles as
+  // faces of the mesh: walls between regions, and open sheets within one. They are any set that
+  // meets in common vertices and edges alone. The surface is kept.
+  all
+};
+
 // Of tetrahedralize().
 struct Options : Limits {
   // A surface is kept with the options that have Text::with_kept_surface in option_table.h; the
   // others have to be as they are by default. `automatic` is `split` with them, with a size field,
   // and if the surface has edges above max_edge.
   SurfaceChoice surface = SurfaceChoice::automatic;
+  Regions regions = Regions::solid;
   // A vertex on a kept surface that finds no way off it ends the run with Limit::precision. It is
   // counted otherwise.
   bool strict = false;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace delmesher {
@@ -13,16 +14,27 @@ struct TetMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
   std::vector<std::uint8_t> inside;  // per tetrahedron: 1 if contained in the solid
-  // Per tetrahedron, of meshes from elsewhere; empty: 1 inside the solid, 2 outside.
+  // Per tetrahedron, of meshes from elsewhere and with Regions::all; empty: 1 inside the solid, 2
+  // outside.
   std::vector<std::int32_t> regions;
-  // Triangles tiling the input surface, counter-clockwise seen from outside the solid, with the
-  // label of the input and the id of the facet they tile (its smallest input triangle index).
+  // Triangles tiling the input surface, counter-clockwise seen from outside the solid, with
+  // Regions::all as given; with the label of the input and the id of the facet they tile (its
+  // smallest input triangle index).
   std::vector<std::array<std::uint32_t, 3>> boundary;
   std::vector<std::int32_t> boundary_labels;
   std::vector<std::uint32_t> boundary_facets;
   // How far the boundary may be from the input surface between the vertices and edges of that, as a
   // fraction of the diagonal of the bounding box: Options::planar in force. 0: as given.
   double planar_within = 0;
+};
+
+// A part of space that the surface bounds.
+struct MeshRegion {
+  double volume = 0;  // rounded
+  std::uint64_t tetrahedra = 0;
+  // Of the smallest solid that it lies in, by volume, of those that the triangles of one label
+  // bound. None: it is in none.
+  std::optional<std::int32_t> label = {};
 };
 
 }  // namespace delmesher

@@ -162,7 +162,10 @@ class Entry {
     mesh.star(v, star_);
     for (const TetId t : star_) {
       for (int k = 0; k < 4; ++k) {
-        if (!mesh.inside(t) || mesh.facet(t, k) != diagonal_.facet || mesh.tet(t)[k] == v) continue;
+        if (mesh.facet(t, k) != diagonal_.facet || mesh.tet(t)[k] == v ||
+            !mesh.is_told_from(t, k)) {
+          continue;
+        }
         std::array<VertexId, 2> other{};
         int n = 0;
         for (const int j : kFace[k]) {

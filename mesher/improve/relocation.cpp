@@ -7,8 +7,8 @@
 namespace delmesher::improve {
 namespace {
 
-int corner_of_point(const CreatedTet& tet) {
-  return static_cast<int>(std::ranges::find(tet.vertices, kNone) - tet.vertices.begin());
+int corner_of(VertexId point, const CreatedTet& tet) {
+  return static_cast<int>(std::ranges::find(tet.vertices, point) - tet.vertices.begin());
 }
 
 }  // namespace
@@ -21,48 +21,78 @@ bool Relocation::run(VertexId v, bool fine) {
   }
   v_ = v;
   state_.mesh.star(v, star_);
-  if (!find_faces()) return false;
-  created_.clear();
+  tilings_.clear();
   faces_.clear();
-  normals_.clear();
-  const auto facet_of = [&](const Face& face) { return state_.mesh.facet(face.tet, face.face); };
-  const FacetId first = facet_of(old_faces_.front());
-  const auto other =
-      std::ranges::find_if(old_faces_, [&](const Face& face) { return facet_of(face) != first; });
-  if (other == old_faces_.end() || !tile(first) || !tile(facet_of(*other))) return false;
-  find_created();
-  Vec3 x{};
-  if (!find_place(fine, x)) return false;
-  // In a thin wedge the place has to be finer than it is far from v.
-  constexpr int kMostGrids = 4;
-  double tolerance = norm(subtract(x, state_.position(v)));
-  for (int n = 0; n < kMostGrids; ++n) {
-    tolerance *= State::kGrid;
-    const Place place = state_.new_place(x, tolerance);
-    if (fits(place)) {
-      state_.insert_on_surface(place, Mobility::free, kNone, star_, created_, faces_);
-      return true;
-    }
-    state_.forget(place);
+  if (!find_wedges() || !std::ranges::all_of(wedges_, [&](Wedge& w) { return fill(w); }) ||
+      !place_all(fine)) {
+    return false;
   }
-  return false;
+  std::vector<CreatedTet> created;
+  for (const Wedge& wedge : wedges_) {
+    created.insert(created.end(), wedge.created.begin(), wedge.created.end());
+  }
+  state_.insert_in_volume(places_, star_, created, faces_);
+  return true;
 }
 
-// False if there are tetrahedra on both sides of the surface.
-bool Relocation::find_faces() {
+// The parts into which the surface divides the star. False if there is no surface.
+bool Relocation::find_wedges() {
   const MeshTopology& mesh = state_.mesh;
-  old_faces_.clear();
-  for (const TetId t : star_) {
+  std::vector<std::uint8_t> seen(star_.size(), 0);
+  std::vector<std::pair<TetId, std::size_t>> sorted;
+  for (std::size_t n = 0; n < star_.size(); ++n) sorted.emplace_back(star_[n], n);
+  std::ranges::sort(sorted);
+  wedges_.clear();
+  for (std::size_t first = 0; first < star_.size(); ++first) {
+    if (seen[first] != 0) continue;
+    Wedge& wedge = wedges_.emplace_back();
+    wedge.point = kNone - static_cast<VertexId>(wedges_.size() - 1);
+    seen[first] = 1;
+    std::vector<std::size_t> queue = {first};
+    for (std::size_t n = 0; n < queue.size(); ++n) {
+      const TetId t = star_[queue[n]];
+      for (int i = 0; i < 4; ++i) {
+        if (mesh.tet(t)[i] == v_ || mesh.facet(t, i) != kNone) continue;
+        const TetId neighbor = mesh.neighbor(t, i);
+        if (neighbor == kNone) continue;
+        const std::size_t u =
+            std::ranges::lower_bound(sorted, std::pair{neighbor, std::size_t{0}})->second;
+        if (seen[u] != 0) continue;
+        seen[u] = 1;
+        queue.push_back(u);
+      }
+    }
+    std::ranges::sort(queue);  // in the order of the star
+    for (const std::size_t n : queue) wedge.star.push_back(star_[n]);
+  }
+  return !wedges_.empty();
+}
+
+// Finds the tetrahedra that replace those of the wedge, which is between two facets.
+bool Relocation::fill(Wedge& wedge) {
+  const MeshTopology& mesh = state_.mesh;
+  for (const TetId t : wedge.star) {
     for (int i = 0; i < 4; ++i) {
       if (mesh.tet(t)[i] == v_ || mesh.facet(t, i) == kNone) continue;
-      if (mesh.neighbor(t, i) != kNone) return false;
       std::array<VertexId, 3> face{};
       std::ranges::transform(kFace[i], face.begin(), [&](int k) { return mesh.tet(t)[k]; });
       std::rotate(face.begin(), std::ranges::find(face, v_), face.end());
-      old_faces_.push_back({face, t, i});
+      wedge.old_faces.push_back({face, t, i});
     }
   }
-  return !old_faces_.empty();
+  if (wedge.old_faces.empty()) return false;
+  const FacetId first = facet_of(wedge.old_faces.front());
+  const auto other = std::ranges::find_if(
+      wedge.old_faces, [&](const Face& face) { return facet_of(face) != first; });
+  if (other == wedge.old_faces.end() || !tile(first, wedge) || !tile(facet_of(*other), wedge)) {
+    return false;
+  }
+  for (const TetId t : wedge.star) {
+    Tet tet = mesh.tet(t);
+    std::ranges::replace(tet, v_, wedge.point);
+    wedge.created.push_back({tet, mesh.region(t)});
+  }
+  return true;
 }
 
 // The faces of the facet at v, as a polygon that has v on its edge from the last vertex to the
@@ -83,36 +113,51 @@ std::vector<VertexId> Relocation::outline(std::span<const Face> fan) {
   return polygon.size() == fan.size() + 1 ? polygon : std::vector<VertexId>{};
 }
 
-// Tiles the facet without v: ears are cut off opposite the edge with v. None of them contains
-// another vertex, because v sees all of the polygon. fits() decides where doubles see no ear.
-bool Relocation::tile(FacetId facet) {
+// Tiles the facet without v, as seen from this wedge: like the wedge on its other side, if that was
+// first.
+bool Relocation::tile(FacetId facet, Wedge& wedge) {
   std::vector<Face> fan;
-  Vec3& normal = normals_.emplace_back();
-  for (const Face& face : old_faces_) {
-    if (state_.mesh.facet(face.tet, face.face) != facet) continue;
+  Vec3& normal = wedge.normals.emplace_back();
+  for (const Face& face : wedge.old_faces) {
+    if (facet_of(face) != facet) continue;
     fan.push_back(face);
     normal = geometry::add(normal, state_.face_normal(face.tet, face.face));
   }
-  std::vector<VertexId> polygon = outline(fan);
-  if (polygon.empty()) return false;
+  auto tiling = std::ranges::find(tilings_, facet, &Tiling::facet);
+  const bool from_behind = tiling != tilings_.end();
+  if (!from_behind) {
+    tilings_.push_back({facet, {}});
+    tiling = tilings_.end() - 1;
+    const std::vector<VertexId> polygon = outline(fan);
+    if (polygon.empty() || !cut_ears(polygon, normal, *tiling)) return false;
+    for (const auto& triangle : tiling->triangles) faces_.push_back({triangle, facet});
+  }
+  for (const auto& [a, b, c] : tiling->triangles) {
+    put_on(from_behind ? std::array{c, b, a} : std::array{a, b, c}, fan.front(), wedge);
+  }
+  return true;
+}
+
+// Opposite the edge with v. No ear contains another vertex, because v sees all of the polygon.
+// fits() decides where doubles see no ear.
+bool Relocation::cut_ears(std::vector<VertexId> polygon, const Vec3& normal, Tiling& tiling) {
   while (polygon.size() >= 3) {
     const std::size_t ear = best_ear(polygon, normal);
     if (ear == 0) return false;
     const VertexId before = polygon[ear - 1], after = polygon[ear + 1];
     if (state_.too_long(state_.position(before), state_.position(after))) return false;
-    put_on({before, polygon[ear], after}, fan.front());
+    tiling.triangles.push_back({before, polygon[ear], after});
     polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   return true;
 }
 
-// A new face of the surface, with the tetrahedron from there to the point; as `model` is turned.
-void Relocation::put_on(const std::array<VertexId, 3>& face, const Face& model) {
-  faces_.push_back({face, state_.mesh.facet(model.tet, model.face)});
+// The tetrahedron from a new face of the surface to the point; as `model` is turned.
+void Relocation::put_on(const std::array<VertexId, 3>& face, const Face& model, Wedge& wedge) {
   Tet tet = state_.mesh.tet(model.tet);
   for (std::size_t k = 0; k < 3; ++k) tet[kFace[model.face][k]] = face[k];
-  tet[model.face] = kNone;
-  created_.push_back({tet, state_.mesh.region(model.tet)});
+  tet[model.face] = wedge.point;
+  wedge.created.push_back({tet, state_.mesh.region(model.tet)});
 }
 
 // The roundest one, or the least inverted; 0 if none has a shape in doubles.
@@ -133,28 +178,47 @@ std::size_t Relocation::best_ear(const std::vector<VertexId>& polygon, const Vec
 }
 
 // Of unit length, halfway between the two facets.
-Vec3 Relocation::inwards() const {
+Vec3 Relocation::inwards(const Wedge& wedge) {
   Vec3 sum{};
-  for (const Vec3& normal : normals_) sum = add_scaled(sum, -1 / norm(normal), normal);
+  for (const Vec3& normal : wedge.normals) sum = add_scaled(sum, -1 / norm(normal), normal);
   to_unit_length(sum);
   return sum;
 }
 
-// Besides those on the new faces.
-void Relocation::find_created() {
-  for (const TetId t : star_) {
-    Tet tet = state_.mesh.tet(t);
-    std::ranges::replace(tet, v_, kNone);
-    created_.push_back({tet, state_.mesh.region(t)});
+bool Relocation::place_all(bool fine) {
+  places_.clear();
+  for (const Wedge& wedge : wedges_) {
+    if (place(wedge, fine)) continue;
+    for (; !places_.empty(); places_.pop_back()) state_.forget(places_.back());
+    return false;
   }
+  return true;
 }
 
-bool Relocation::find_place(bool fine, Vec3& best) const {
+bool Relocation::place(const Wedge& wedge, bool fine) {
+  Vec3 x{};
+  if (!find_place(wedge, fine, x)) return false;
+  // In a thin wedge the place has to be finer than it is far from v.
+  constexpr int kMostGrids = 4;
+  double tolerance = norm(subtract(x, state_.position(v_)));
+  for (int n = 0; n < kMostGrids; ++n) {
+    tolerance *= State::kGrid;
+    const Place place = state_.new_place(x, tolerance);
+    if (fits(wedge, place)) {
+      places_.push_back(place);
+      return true;
+    }
+    state_.forget(place);
+  }
+  return false;
+}
+
+bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
   constexpr int kHalvings = 24, kFineHalvings = 50;  // of the longest edge at v
   Vec3 centre{};
   double longest = 0, count = 0;
-  const Vec3 &at = state_.position(v_), direction = inwards();
-  for (const TetId t : star_) {
+  const Vec3 &at = state_.position(v_), direction = inwards(wedge);
+  for (const TetId t : wedge.star) {
     for (const VertexId w : state_.mesh.tet(t)) {
       if (w == v_) continue;
       centre = geometry::add(centre, subtract(state_.position(w), at));
@@ -172,7 +236,7 @@ bool Relocation::find_place(bool fine, Vec3& best) const {
     const float before = score;
     for (const Vec3& x :
          {add_scaled(at, step * longest, direction), add_scaled(at, step, centre)}) {
-      const float here = worst_at(x);
+      const float here = worst_at(wedge, x);
       if (here <= score) continue;
       score = here;
       best = x;
@@ -184,22 +248,22 @@ bool Relocation::find_place(bool fine, Vec3& best) const {
 
 // Squared: the sine of the smallest dihedral angle of the new tetrahedra with the point at x; 0 if
 // one is not positive. (Other measures are beyond the range of floats where all is flat.)
-float Relocation::worst_at(const Vec3& x) const {
+float Relocation::worst_at(const Wedge& wedge, const Vec3& x) const {
   float worst = HUGE_VALF;
-  for (const CreatedTet& tet : created_) {
-    const Quality q = state_.quality_with(tet.vertices, corner_of_point(tet), x);
+  for (const CreatedTet& tet : wedge.created) {
+    const Quality q = state_.quality_with(tet.vertices, corner_of(wedge.point, tet), x);
     if (!(q.dihedral > 0)) return 0;
     worst = std::min(worst, q.dihedral);
   }
   return worst;
 }
 
-bool Relocation::fits(const Place& place) {
-  return std::ranges::all_of(created_, [&](const CreatedTet& tet) {
+bool Relocation::fits(const Wedge& wedge, const Place& place) {
+  return std::ranges::all_of(wedge.created, [&](const CreatedTet& tet) {
     for (const VertexId w : tet.vertices) {
-      if (w != kNone && state_.too_long(place.position, state_.position(w))) return false;
+      if (w != wedge.point && state_.too_long(place.position, state_.position(w))) return false;
     }
-    return state_.is_positive_with(tet.vertices, corner_of_point(tet), place);
+    return state_.is_positive_with(tet.vertices, corner_of(wedge.point, tet), place);
   });
 }
 

@@ -124,11 +124,14 @@ void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, Roundi
   std::vector<VertexId> index(nearest.point.size(), kNone);
   written.tetrahedra.reserve(slots);
   written.inside.reserve(slots);
+  const bool several =
+      std::ranges::any_of(nearest.mesh.region, [](RegionId r) { return r > kInside; });
   result.repeated_faces =
       repaired != nullptr ? std::vector<std::uint8_t>{} : nearest.mesh.repeated_faces;
   const auto take = [&](const Tet& t, RegionId region, int sign) {
     written.tetrahedra.push_back(t);
     written.inside.push_back(region != kOutside ? 1 : 0);
+    if (several) written.regions.push_back(static_cast<std::int32_t>(region));
     if (sign <= 0) ++(sign < 0 ? result.inverted : result.flat);
     for (const VertexId v : t) index[v] = 0;
   };

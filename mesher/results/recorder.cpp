@@ -113,6 +113,13 @@ void Recorder::kept(const ConformingMesh& mesh, std::uint64_t left) {
   improved(mesh);
 }
 
+void Recorder::left_out(std::uint64_t faces) {
+  if (faces == 0) return;
+  result_.warnings.push_back(
+      std::to_string(faces) +
+      " triangles are left out: both of their sides are open to the outside");
+}
+
 void Recorder::thinned(const ConformingMesh& mesh, std::uint64_t vertices) {
   result_.statistics.rounding_thinned = vertices;
   if (exact()) record_changed(mesh, session_.surface.topology(), result_.exact);

@@ -36,6 +36,8 @@ class Recorder {
   void improved(const ConformingMesh& mesh);
   // The same with the surface kept, but for `left` vertices on it.
   void kept(const ConformingMesh& mesh, std::uint64_t left);
+  // Triangles that no region has.
+  void left_out(std::uint64_t faces);
   // `vertices` in all were taken out again before rounding.
   void thinned(const ConformingMesh& mesh, std::uint64_t vertices);
   // Edges of the surface as given came back by local operations, except for `missing`.

@@ -64,7 +64,13 @@ std::string_view useless_if_kept(const Options& given) {
 }
 
 std::string combination_defect(const Options& given) {
-  if (given.surface != SurfaceChoice::keep) {
+  if (given.regions == Regions::all && given.surface == SurfaceChoice::split) {
+    return "regions all needs surface keep";
+  }
+  if (given.regions == Regions::all && given.want_exact) {
+    return "regions all has no exact record yet";
+  }
+  if (given.surface != SurfaceChoice::keep && given.regions == Regions::solid) {
     return given.strict ? "strict needs surface keep" : "";
   }
   const std::string_view useless = useless_if_kept(given);
@@ -92,6 +98,7 @@ bool is_fine_enough(const Surface& surface, const Options& options) {
 }  // namespace
 
 SurfaceChoice surface_choice(const Options& given, const Surface& surface) {
+  if (given.regions == Regions::all) return SurfaceChoice::keep;
   const bool may_keep =
       useless_if_kept(given).empty() && !given.want_chamfered && is_fine_enough(surface, given);
   return given.surface == SurfaceChoice::automatic && !may_keep ? SurfaceChoice::split

@@ -170,7 +170,8 @@ std::uint64_t triangles_of_sheets(const Surface& surface, const SurfaceReport& r
 }
 
 constexpr const char* kMoveApart =
-    "`tetproof union --separate 1e-4` moves them apart, or mesh them one by one";
+    "`tetproof union --separate 1e-4` moves them apart, or `delmesher mesh --regions all` meshes "
+    "each as a region";
 
 // What has more than two triangles at an edge.
 Contact contact_at_edges(const Surface& surface, const SurfaceReport& report) {
@@ -179,9 +180,10 @@ Contact contact_at_edges(const Surface& surface, const SurfaceReport& report) {
           ? enclosed_by(surface)
           : std::nullopt;
   if (!enclosed) {
-    return {"more than two triangles at an edge",
-            "an inner wall, or bodies that share an edge; only surfaces that bound one solid are "
-            "meshed, so mesh the bodies one by one or leave the wall out"};
+    return {
+        "more than two triangles at an edge",
+        "an inner wall, or bodies that share an edge: `delmesher mesh --regions all` meshes each "
+        "part as a region"};
   }
   if (enclosed->walls.empty()) {
     return {"bodies, or parts of one, touch along " +
@@ -189,16 +191,16 @@ Contact contact_at_edges(const Surface& surface, const SurfaceReport& report) {
             kMoveApart};
   }
   const std::uint32_t first = enclosed->walls[0];
-  return {
-      (enclosed->sheets == 1 ? "an inner wall of "
-                             : std::to_string(enclosed->sheets) + " inner walls of ") +
-          counted(enclosed->walls.size(), "triangle"),
-      "triangle " + std::to_string(first) + " at " +
-          point(surface.vertices[surface.triangles[first][0]]) + " is the first; with " +
-          counted(enclosed->parts, "part") +
-          " inside this is not one solid, and only such are meshed: " +
-          (enclosed->closes ? "`tetproof union --separate 1e-4` unites them" : "leave walls out") +
-          ", or mesh the parts one by one"};
+  return {(enclosed->sheets == 1 ? "an inner wall of "
+                                 : std::to_string(enclosed->sheets) + " inner walls of ") +
+              counted(enclosed->walls.size(), "triangle"),
+          "triangle " + std::to_string(first) + " at " +
+              point(surface.vertices[surface.triangles[first][0]]) + " is the first; with " +
+              counted(enclosed->parts, "part") +
+              " inside this is not one solid: `delmesher mesh --regions all` meshes each as a "
+              "region, " +
+              (enclosed->closes ? "or `tetproof union --separate 1e-4` unites them"
+                                : "or leave walls out")};
 }
 
 }  // namespace
@@ -224,8 +226,10 @@ std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& repor
     found.push_back({"a double-sided surface: each triangle is there twice, once from each side",
                      "`delmesher repair` keeps one of them"});
   } else if (opposite > 0) {
-    found.push_back({"bodies, or parts of one, touch in " + counted(opposite, "triangle"),
-                     "`delmesher repair` makes one of them, or mesh them one by one"});
+    found.push_back(
+        {"bodies, or parts of one, touch in " + counted(opposite, "triangle"),
+         "`delmesher repair` makes one of them, or `delmesher mesh --regions all` meshes "
+         "each as a region"});
   }
   // Triangles without area, and doubled ones, make such edges themselves: first things first.
   if (count_of(report, Kind::degenerate_triangle) > 0 ||

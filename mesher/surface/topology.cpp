@@ -35,8 +35,8 @@ std::vector<std::uint32_t> classes_of(
 
 class Builder {
  public:
-  Builder(const Surface& surface, PointStore& points, Predicates& predicates)
-      : surface_(surface), points_(points), predicates_(predicates) {}
+  Builder(const Surface& surface, PointStore& points, Predicates& predicates, Rules rules)
+      : surface_(surface), points_(points), predicates_(predicates), rules_(rules) {}
 
   SurfaceTopology build() {
     add_points();
@@ -71,18 +71,32 @@ class Builder {
     for (std::size_t e = 0; e < groups.size(); ++e) {
       const auto group = groups[e];
       DELMESHER_CHECK(
-          group.size() == 2 && s.from(group[0]) == s.to(group[1]),
+          rules_ == Rules::complex || (group.size() == 2 && s.from(group[0]) == s.to(group[1])),
           "an edge of a valid surface does not have two triangles with opposite directions");
-      s.opposite[group[0]] = group[1];
-      s.opposite[group[1]] = group[0];
-      s.edge_of[group[0]] = s.edge_of[group[1]] = static_cast<std::uint32_t>(e);
-      s.edge_half_edge.push_back(s.from(group[0]) < s.to(group[0]) ? group[0] : group[1]);
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        s.opposite[group[k]] = group[k + 1 < group.size() ? k + 1 : 0];
+        s.edge_of[group[k]] = static_cast<std::uint32_t>(e);
+      }
+      const auto up =
+          std::ranges::find_if(group, [&](std::uint32_t h) { return s.from(h) < s.to(h); });
+      s.edge_half_edge.push_back(up != group.end() ? *up : group[0]);
     }
     s.vertex_half_edge.assign(surface_.vertices.size(), kNone);
     for (std::uint32_t h = 0; h < s.opposite.size(); ++h) {
       DELMESHER_CHECK(s.opposite[h] != kNone, "a triangle of a valid surface repeats a vertex");
       if (s.vertex_half_edge[s.from(h)] == kNone) s.vertex_half_edge[s.from(h)] = h;
     }
+    if (rules_ == Rules::complex) list_outgoing();
+  }
+
+  void list_outgoing() {
+    SurfaceTopology& s = topology_;
+    s.outgoing_begin.assign(surface_.vertices.size() + 1, 0);
+    for (std::uint32_t h = 0; h < s.opposite.size(); ++h) ++s.outgoing_begin[s.from(h) + 1];
+    std::partial_sum(s.outgoing_begin.begin(), s.outgoing_begin.end(), s.outgoing_begin.begin());
+    std::vector<std::uint32_t> at(s.outgoing_begin.begin(), s.outgoing_begin.end() - 1);
+    s.outgoing.resize(s.opposite.size());
+    for (std::uint32_t h = 0; h < s.opposite.size(); ++h) s.outgoing[at[s.from(h)]++] = h;
   }
 
   // Being exactly coplanar is transitive along edges because no triangle is degenerate, so one
@@ -93,12 +107,13 @@ class Builder {
     DisjointSets sets(s.triangles.size());
     for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
       const auto [h, g] = s.edge_half_edges(e);
-      if (s.labels[h / 3] != s.labels[g / 3]) continue;
+      if (s.labels[h / 3] != s.labels[g / 3] || !has_two_sides(h, g)) continue;
       const VertexId c = s.to(SurfaceTopology::next(h)), d = s.to(SurfaceTopology::next(g));
       if (predicates_.orient3d(s.from(h), s.to(h), c, d) != 0) continue;
       s.edge_is_flat[e] = 1;
       sets.join(h / 3, g / 3);
     }
+    if (rules_ == Rules::complex) take_apart(sets);
     s.facet_of.resize(s.triangles.size());
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
       const std::uint32_t root = sets.smallest(t);  // already numbered
@@ -110,6 +125,41 @@ class Builder {
       }
       s.facet_triangles[s.facet_of[t]].push_back(t);
     }
+  }
+
+  // Are these the only half-edges of their edge, in opposite directions?
+  bool has_two_sides(std::uint32_t h, std::uint32_t g) const {
+    return h != g && topology_.opposite[g] == h && topology_.from(h) == topology_.to(g);
+  }
+
+  // Facets that are on more than one side of a constrained edge have an edge inside.
+  void take_apart(DisjointSets& sets) {
+    SurfaceTopology& s = topology_;
+    std::vector<std::uint8_t> falls_apart(s.triangles.size(), 0);  // by the set's smallest
+    std::vector<std::uint32_t> roots;
+    for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+      if (s.edge_is_flat[e] != 0) continue;
+      roots.clear();
+      s.for_each_half_edge(e, [&](std::uint32_t h) {
+        roots.push_back(sets.smallest(h / 3));
+        return true;
+      });
+      std::ranges::sort(roots);
+      for (std::size_t k = 1; k < roots.size(); ++k) {
+        if (roots[k] == roots[k - 1]) falls_apart[roots[k]] = 1;
+      }
+    }
+    DisjointSets whole(s.triangles.size());
+    for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+      if (s.edge_is_flat[e] == 0) continue;
+      const auto [h, g] = s.edge_half_edges(e);
+      if (falls_apart[sets.smallest(h / 3)] != 0) {
+        s.edge_is_flat[e] = 0;
+      } else {
+        whole.join(h / 3, g / 3);
+      }
+    }
+    sets = std::move(whole);
   }
 
   void classify_planes() {
@@ -176,20 +226,20 @@ class Builder {
     std::vector<PlaneId> planes;
     std::vector<std::uint32_t> lines;
     for (VertexId v = 0; v < s.vertex_half_edge.size(); ++v) {
-      const std::uint32_t first = s.vertex_half_edge[v];
-      if (first == kNone) continue;
+      if (s.vertex_half_edge[v] == kNone) continue;
       planes.clear();
       lines.clear();
-      std::uint32_t h = first;
-      do {
+      s.for_each_outgoing(v, [&](std::uint32_t h) {
         planes.push_back(s.facet_plane[s.facet_of_half_edge(h)]);
-        const std::uint32_t e = s.edge_of[h];
+        return true;
+      });
+      s.for_each_edge_at(v, [&](std::uint32_t e) {
         if (s.edge_is_flat[e] == 0) {
           lines.push_back(e);
           lines.push_back(s.edge_line[e]);
         }
-        h = s.opposite[SurfaceTopology::previous(h)];
-      } while (h != first);
+        return true;
+      });
       sort_unique(planes);
       sort_unique(lines);
       points_.set_supports(v, planes, lines);
@@ -199,13 +249,15 @@ class Builder {
   const Surface& surface_;
   PointStore& points_;
   Predicates& predicates_;
+  const Rules rules_;
   SurfaceTopology topology_;
 };
 
 }  // namespace
 
-SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates) {
-  return Builder(surface, points, predicates).build();
+SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
+                               Rules rules) {
+  return Builder(surface, points, predicates, rules).build();
 }
 
 SurfaceTopology with_facet_per_triangle(const SurfaceTopology& topology) {
@@ -232,21 +284,22 @@ SurfaceTopology with_facet_per_triangle(const SurfaceTopology& topology) {
 
 std::vector<PlaneId> SurfaceTopology::edge_planes(std::uint32_t e) const {
   std::vector<PlaneId> planes;
-  for (const std::uint32_t h : edge_half_edges(e)) {
+  for_each_half_edge(e, [&](std::uint32_t h) {
     planes.push_back(facet_plane[facet_of_half_edge(h)]);
-  }
+    return true;
+  });
   sort_unique(planes);
   return planes;
 }
 
 std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b) {
-  const std::uint32_t first = topology.vertex_half_edge[a];
-  for (std::uint32_t h = first; h != kNone;) {
-    if (topology.to(h) == b) return topology.edge_of[h];
-    h = topology.opposite[SurfaceTopology::previous(h)];
-    if (h == first) break;
-  }
-  return kNone;
+  std::uint32_t edge = kNone;
+  topology.for_each_edge_at(a, [&](std::uint32_t e) {
+    const std::array<VertexId, 2> end = topology.edge_vertices(e);
+    if (end[0] == b || end[1] == b) edge = e;
+    return edge == kNone;
+  });
+  return edge;
 }
 
 std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points) {

@@ -60,11 +60,13 @@ double diagonal(const Box& box) {
 
 class Checker {
  public:
-  Checker(const Surface& surface, bool stop_at_first, Control& control, std::uint64_t most_places)
+  Checker(const Surface& surface, bool stop_at_first, Control& control, std::uint64_t most_places,
+          Rules rules)
       : surface_(surface),
         triangles_(surface.triangles),
         stop_at_first_(stop_at_first),
         most_places_(most_places),
+        rules_(rules),
         control_(control),
         predicates_(points_) {}
 
@@ -100,12 +102,14 @@ class Checker {
     if (ends()) return;
     check_duplicates();
     if (ends()) return;
-    check_edges();
-    if (ends()) return;
-    check_fans();
-    if (ends()) return;
+    if (rules_ == Rules::solid) {
+      check_edges();
+      if (ends()) return;
+      check_fans();
+      if (ends()) return;
+    }
     check_intersections();
-    if (ends()) return;
+    if (ends() || rules_ == Rules::complex) return;
     if (any_defect()) {
       result_.report.warnings.push_back("nesting and volume are not known: the surface is invalid");
     } else {
@@ -392,7 +396,7 @@ class Checker {
           (depth == 0   ? "no other"
            : depth == 1 ? "another"
                         : text(depth) + " others") +
-          (depth % 2 == 1 ? ", so it bounds a cavity, which is not meshed"
+          (depth % 2 == 1 ? ", so it bounds a cavity, which is not meshed (--regions all meshes it)"
                           : ", so it bounds a solid, which is meshed"));
     }
     if (reversed > listed) {
@@ -430,6 +434,7 @@ class Checker {
   const Triangles& triangles_;
   const bool stop_at_first_;
   const std::uint64_t most_places_;
+  const Rules rules_;
   Control& control_;
   PointStore points_;
   Predicates predicates_;
@@ -445,8 +450,8 @@ class Checker {
 }  // namespace
 
 ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control,
-                              std::uint64_t most_places) {
-  return Checker(surface, stop_at_first, control, most_places).run();
+                              std::uint64_t most_places, Rules rules) {
+  return Checker(surface, stop_at_first, control, most_places, rules).run();
 }
 
 Surface oriented_outwards(const Surface& surface, const ValidityResult& validity) {

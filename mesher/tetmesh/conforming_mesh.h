@@ -42,6 +42,13 @@ inline std::uint8_t repeated_within(Region region, std::uint8_t repeated) {
 // Drops the tetrahedra outside the solid.
 void keep_inside(ConformingMesh& mesh);
 
+// Without the outside, would the tetrahedra at some vertex be in parts that share no face there? It
+// is so where solids touch in an edge or a vertex.
+bool touches_itself(const ConformingMesh& mesh);
+
+// Drops the faces of the boundary that no tetrahedron has. How many?
+std::size_t drop_bare_faces(ConformingMesh& mesh);
+
 // The tetrahedra that are written of a mesh, and all of its boundary. The repeated faces are those
 // within the region, in bits 0 to 3.
 ConformingMesh part_within(Region region, const ConformingMesh& mesh);

@@ -69,9 +69,27 @@ class ContractEdge {
     const bool on_hull = find_edges_on_surface();
     if (edges_.empty() && on_hull) targets_.clear();
     if (edges_.empty()) return;
+    if (keep_rim()) return;
     const bool in_facet = std::ranges::all_of(
         edges_, [&](const auto& edge) { return edge.second == edges_.front().second; });
     std::erase_if(targets_, [&](VertexId w) { return !stays_on_surface(in_facet, w); });
+  }
+
+  // Of a vertex on a free edge of the surface: the targets along it, which are on one face at v.
+  bool keep_rim() {
+    std::vector<VertexId>& once = once_;
+    once.clear();
+    for (const auto& [w, facet] : edges_) once.push_back(w);
+    std::ranges::sort(once);
+    std::size_t kept = 0;
+    for (std::size_t n = 0, end = 0; n < once.size(); n = end) {
+      for (end = n + 1; end < once.size() && once[end] == once[n];) ++end;
+      if (end == n + 1) once[kept++] = once[n];
+    }
+    once.resize(kept);
+    if (once.empty()) return false;
+    std::erase_if(targets_, [&](VertexId w) { return !std::ranges::binary_search(once, w); });
+    return true;
   }
 
   // The edges from v on the surface: each twice, with the facets of the faces beside it. Is a face
@@ -125,6 +143,7 @@ class ContractEdge {
   std::vector<std::uint32_t> mark_;  // of find_targets()
   std::uint32_t epoch_ = 0;
   std::vector<std::pair<VertexId, FacetId>> edges_;  // of the surface
+  std::vector<VertexId> once_;                       // of keep_rim()
 };
 
 }  // namespace delmesher::tetmesh

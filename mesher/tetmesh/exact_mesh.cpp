@@ -49,7 +49,7 @@ void ExactMesh::find_mobility() {
         } else if (points_.is_corner(point_[v]) || surface_ == nullptr) {
           m = Mobility::fixed;
         } else if (facet_[v] == kNone) {
-          m = Mobility::in_plane;
+          m = is_on_free_edge(v) ? Mobility::on_line : Mobility::in_plane;
           facet_[v] = facet;
         } else if (facet_[v] != facet) {
           const bool on_edge = points_.definition(point_[v]).kind == PointKind::on_segment;
@@ -58,6 +58,13 @@ void ExactMesh::find_mobility() {
       }
     }
   }
+}
+
+bool ExactMesh::is_on_free_edge(VertexId v) const {
+  const PointDefinition d = points_.definition(point_[v]);
+  if (surface_->outgoing.empty() || d.kind != PointKind::on_segment) return false;
+  const std::uint32_t edge = edge_between(*surface_, d.corner[0], d.corner[1]);
+  return edge != kNone && surface_->is_free(edge);
 }
 
 void ExactMesh::contract(VertexId v, VertexId w, std::span<const TetId> star) {
@@ -172,23 +179,20 @@ void ExactMesh::put_at(VertexId v, const Place& place) {
   position_[v] = place.position;
 }
 
-// The new vertex takes the place of kNone.
-void ExactMesh::insert_on_surface(const Place& place, Mobility mobility, FacetId facet,
-                                  std::span<const TetId> removed, std::span<CreatedTet> created,
-                                  std::span<SurfaceFace> faces) {
+VertexId ExactMesh::add_vertex(const Place& place, Mobility mobility, FacetId facet) {
   ++gained_;
   point_.push_back(place.point);
   position_.push_back(place.position);
   mobility_.push_back(mobility);
   facet_.push_back(facet);
   changed_at_.push_back(clock_);
-  const VertexId v = mesh.add_vertex();
-  for (CreatedTet& tet : created) {
-    std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
-  }
-  for (SurfaceFace& face : faces) {
-    std::replace(face.vertices.begin(), face.vertices.end(), kNone, v);
-  }
+  return mesh.add_vertex();
+}
+
+// Some vertices may have no tetrahedra any more.
+void ExactMesh::replace_swallowing(std::span<const TetId> removed,
+                                   std::span<const CreatedTet> created,
+                                   std::span<const SurfaceFace> faces) {
   swallowed_.clear();
   for (const TetId t : removed) {
     swallowed_.insert(swallowed_.end(), mesh.tet(t).begin(), mesh.tet(t).end());
@@ -196,6 +200,34 @@ void ExactMesh::insert_on_surface(const Place& place, Mobility mobility, FacetId
   sort_unique(swallowed_);
   replace(removed, created, faces);
   for (const VertexId w : swallowed_) gained_ -= mesh.incident(w) == kNone ? 1 : 0;
+}
+
+// The new vertex takes the place of kNone.
+void ExactMesh::insert_on_surface(const Place& place, Mobility mobility, FacetId facet,
+                                  std::span<const TetId> removed, std::span<CreatedTet> created,
+                                  std::span<SurfaceFace> faces) {
+  const VertexId v = add_vertex(place, mobility, facet);
+  for (CreatedTet& tet : created) {
+    std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
+  }
+  for (SurfaceFace& face : faces) {
+    std::replace(face.vertices.begin(), face.vertices.end(), kNone, v);
+  }
+  replace_swallowing(removed, created, faces);
+}
+
+void ExactMesh::insert_in_volume(std::span<const Place> places, std::span<const TetId> removed,
+                                 std::span<CreatedTet> created,
+                                 std::span<const SurfaceFace> faces) {
+  VertexId name = kNone;
+  for (const Place& place : places) {
+    const VertexId v = add_vertex(place, Mobility::free, kNone);
+    for (CreatedTet& tet : created) {
+      std::replace(tet.vertices.begin(), tet.vertices.end(), name, v);
+    }
+    --name;
+  }
+  replace_swallowing(removed, created, faces);
 }
 
 }  // namespace delmesher::tetmesh

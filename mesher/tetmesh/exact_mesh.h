@@ -56,6 +56,10 @@ class ExactMesh : public PlacedMesh {
   void insert_on_surface(const Place& place, Mobility mobility, FacetId facet,
                          std::span<const TetId> removed, std::span<CreatedTet> created,
                          std::span<SurfaceFace> faces);
+  // Several in the volume at once: kNone - n in `created` is the n-th. `faces`: on the surface, of
+  // vertices that are there already.
+  void insert_in_volume(std::span<const Place> places, std::span<const TetId> removed,
+                        std::span<CreatedTet> created, std::span<const SurfaceFace> faces);
 
  protected:
   // `surface`: null if no vertex of it may move. `given`: its vertices as given, where it is
@@ -75,6 +79,10 @@ class ExactMesh : public PlacedMesh {
   };
 
   void find_mobility();
+  bool is_on_free_edge(VertexId v) const;
+  VertexId add_vertex(const Place& place, Mobility mobility, FacetId facet);
+  void replace_swallowing(std::span<const TetId> removed, std::span<const CreatedTet> created,
+                          std::span<const SurfaceFace> faces);
   Place place_of(const PointDefinition& d, std::span<const PlaneId> planes,
                  std::span<const std::uint32_t> lines);
 

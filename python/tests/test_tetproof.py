@@ -229,6 +229,22 @@ def test_names_of_regions_come_back(tmp_path):
 
 
 @pytest.mark.parametrize("with_tqdm", [False, True])
+def test_bodies_that_share_a_wall_are_regions(tmp_path):
+    points = np.array([(x, y, z) for x in (0, 1, 3) for y in (0, 1) for z in (0, 1)], float)
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    one = [(q[0], q[k], q[k + 1]) for q in sides for k in (1, 2)]
+    triangles = np.array(one + [tuple(v + 4 for v in t) for t in one])
+    labels = np.repeat([1, 2], len(one))
+    with pytest.raises(tetproof.InvalidSurface):
+        tetproof.mesh(points, triangles, labels)
+    mesh = tetproof.mesh(tetproof.Surface(points, triangles, labels, {1: "copper", 2: "air"}), regions="all")
+    assert mesh.region_names == {1: "air", 2: "copper"}
+    corners = mesh.points[mesh.tetrahedra]
+    volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+    assert np.isclose(volumes[mesh.regions == 1].sum(), 2) and np.isclose(volumes[mesh.regions == 2].sum(), 1)
+    assert len(mesh.boundary) == len(triangles) - 2
+
+
 def test_a_bar_for_every_function(capsys, monkeypatch, with_tqdm):
     shown = []
 

@@ -525,6 +525,9 @@ def _mesh(result: Dict[str, Any], names: Optional[Mapping[int, str]] = None) -> 
     fields["warnings"] = [_in_python(line) for line in fields["warnings"]]
     fields["inside"] = fields["inside"].view(np.bool_)
     fields["names"] = dict(names if names is not None else result.get("names", {}))
+    of_regions = {region: fields["names"].get(label) for region, label in result.get("region_labels", {}).items()}
+    if of_regions:
+        fields["region_names"] = {region: name for region, name in of_regions.items() if name is not None}
     return Mesh(**fields)
 
 
@@ -589,7 +592,8 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
     triangles : (m, 3) array_like of int
         Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
     labels : (m,) array_like of int, optional
-        Come back on the boundary.
+        Come back on the boundary. With ``regions="all"`` a region has the name of the smallest solid that the triangles of a label bound
+        around it.
     progress : callable or True, optional
         ``progress(phase, done, vertices)``, called several times a second; False ends the run with `Interrupted`, an
         exception ends it with that. True shows a bar.
