@@ -1,4 +1,4 @@
-// The oracles on the mesh as it was written.
+// The oracles on the mesh of a solid as it was written.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,33 +7,28 @@
 #include <utility>
 
 #include "oracles/base/vectors.h"
-#include "oracles/files/edge_nodes.h"
+#include "oracles/file_step.h"
 #include "oracles/mesh/delaunay.h"
-#include "oracles/mesh/edge_lengths.h"
 #include "oracles/mesh/hull.h"
 #include "oracles/mesh/kept.h"
 #include "oracles/mesh/measures.h"
 #include "oracles/mesh/places.h"
 #include "oracles/mesh/regions.h"
-#include "oracles/plan.h"
 #include "oracles/readings.h"
 #include "oracles/surface/surface_validity.h"
-#include "oracles/verdict/edge_sizes.h"
 #include "oracles/verdict/verdict.h"
 
 namespace tetproof::oracles {
 namespace {
 
 // The mesh as written, on its doubles.
-class FileStep final : public Step {
+class SolidStep final : public FileStep {
  public:
-  explicit FileStep(const Subject& subject) : Step(subject), subject_(subject) {}
+  explicit SolidStep(const Subject& subject) : FileStep(subject), subject_(subject) {}
   std::string run() override;
 
  private:
-  bool check_finite();
   bool check_empty();
-  void turn_all(TetComplex& complex) const;
   BeforeWriting before_writing();
   void check_surface(const TetComplex& complex, const Neighbours& neighbours,
                      const InputSurface& input);
@@ -42,7 +37,6 @@ class FileStep final : public Step {
   void check_surface_kept(const ConformityResult& conformity, Index first);
   void check_quality(const TetComplex& complex, const Neighbours& neighbours,
                      const InputSurface& surface, const ConformityResult& conformity);
-  void check_lengths(const TetComplex& complex, const ConformityResult& conformity);
   bool labels_differ() const;
   void tell_lost_labels();
   void check_no_list();
@@ -57,36 +51,9 @@ class InputStep final : public Step {
   std::string run() override;
 };
 
-// Some formats have no convention: there the sign of the majority is the right one. A file with a
-// record was written by delmesher, which has one.
-void FileStep::turn_all(TetComplex& complex) const {
-  if (!mesh_.either_orientation || exact_ != nullptr) return;
-  std::int64_t balance = 0;
-  for (const auto& [a, b, c, d] : complex.tetrahedra) {
-    balance += exact::orient3d(*complex.points, a, b, c, d);
-  }
-  if (balance >= 0) return;
-  for (Tet& tet : complex.tetrahedra) std::swap(tet[2], tet[3]);
-}
-
-// Numbers that are not finite are reported by an oracle, as no file may make the verification fail
-// otherwise.
-bool FileStep::check_finite() {
-  OracleReport report("complex", "vertices");
-  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-    ++report.checked;
-    if (!is_finite(mesh_.vertices[v])) {
-      report.fail("vertex " + std::to_string(v) + " is not finite");
-    }
-  }
-  if (report.violations == 0) return true;
-  add(std::move(report));
-  return false;
-}
-
 // The filter may leave nothing to refine. Then same-mesh decides whether the record has nothing to
 // write, either; without a record an empty file says nothing.
-bool FileStep::check_empty() {
+bool SolidStep::check_empty() {
   if (exact_ == nullptr || !options_.promised.approximate || !mesh_.tetrahedra.empty())
     return false;
   OracleReport report("complex", "vertices");
@@ -98,7 +65,7 @@ bool FileStep::check_empty() {
   return true;
 }
 
-std::string FileStep::run() {
+std::string SolidStep::run() {
   if (!check_finite() || check_empty()) return {};
   ExactPoints points;
   InputSurface surface;
@@ -110,42 +77,10 @@ std::string FileStep::run() {
   if (std::string why = surface.assign(input_, points); !why.empty()) return why;
   ulp_ = ulp_of(surface);
   diagonal_ = surface.diagonal();
-  if (options_.promised.second_order && !mesh_.has_second_order) {
-    report_.unproven.emplace_back(kLinearOnly);
-  }
-  if (!mesh_.edge_nodes.empty() || (options_.promised.second_order && mesh_.has_second_order)) {
-    OracleReport nodes =
-        check_edge_nodes(mesh_, options_.declared_deviation * diagonal_, largest_given_);
-    // Of a file alone nobody may know with which options it was made.
-    if (exact_ != nullptr && !options_.promised.second_order) {
-      nodes.fail("the elements are of second order, promised were linear ones");
-    }
-    add(std::move(nodes));
-  }
-  if (exact_ == nullptr && (options_.promised.max_vertices > 0 || mesh_.planar_within > 0)) {
-    add(check_written(options_.promised, mesh_.vertices.size(), mesh_.planar_within));
-  }
-
-  const auto offset = static_cast<Index>(input_.vertices.size());
-  TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};
-  memory_.done_with(kFileTetrahedra);
-  for (Tet& tet : complex.tetrahedra) {
-    for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
-  }
-  const bool in_range = std::none_of(
-      complex.tetrahedra.begin(), complex.tetrahedra.end(),
-      [](const Tet& tet) { return *std::max_element(tet.begin(), tet.end()) == kNone; });
-  // Neighbours are numbers of faces within tetrahedra, so no tetrahedron may be turned afterwards.
-  if (in_range) turn_all(complex);
+  check_contents();
+  TetComplex complex;
   Neighbours neighbours;
-  OracleReport shape = check_complex(complex, neighbours, options_.stage == Stage::refined);
-  const bool hopeless = is_hopeless(shape);
-  add(std::move(shape));
-  if (!in_range || hopeless) return {};  // the complex oracle has reported it
-  OracleReport orientation = check_orientation(complex);
-  report_.inverted = static_cast<std::uint64_t>(orientation.figure("inverted").value_or(0));
-  report_.flat = static_cast<std::uint64_t>(orientation.figure("flat").value_or(0));
-  add(std::move(orientation));
+  if (!check_tetrahedra(points, options_.stage == Stage::refined, complex, neighbours)) return {};
   complex.inside = inside_by_parity(complex, surface);
   if (options_.stage == Stage::refined) {
     add(check_angles(complex, neighbours, Places(complex, neighbours, surface), delta(), scope(),
@@ -176,7 +111,7 @@ std::string FileStep::run() {
   return {};
 }
 
-BeforeWriting FileStep::before_writing() {
+BeforeWriting SolidStep::before_writing() {
   BeforeWriting before;
   if (exact_ == nullptr) {
     before.farthest = kRoundedUlps * ulp_ + options_.promised.planar_share() * diagonal_;
@@ -187,8 +122,8 @@ BeforeWriting FileStep::before_writing() {
   return before;
 }
 
-void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighbours,
-                             const InputSurface& input) {
+void SolidStep::check_surface(const TetComplex& complex, const Neighbours& neighbours,
+                              const InputSurface& input) {
   Readings readings(subject_, complex, neighbours, input, ulp_, diagonal_, largest_given_);
   ConformityResult conformity = readings.conformity();
   const InputSurface& surface = readings.surface();
@@ -236,7 +171,7 @@ void FileStep::check_surface(const TetComplex& complex, const Neighbours& neighb
 }
 
 // Unless it was to be strict, a run may leave vertices on the surface; what it left is said first.
-void FileStep::check_surface_kept(const ConformityResult& conformity, Index first) {
+void SolidStep::check_surface_kept(const ConformityResult& conformity, Index first) {
   OracleReport kept = check_kept(input_, mesh_, conformity.faces, first);
   if (kept.violations > 0 && !options_.promised.strict) {
     report_.unproven.push_back("--surface keep (" + std::to_string(kept.violations) +
@@ -248,18 +183,18 @@ void FileStep::check_surface_kept(const ConformityResult& conformity, Index firs
   add(std::move(kept));
 }
 
-bool FileStep::labels_differ() const {
+bool SolidStep::labels_differ() const {
   return std::ranges::adjacent_find(input_.labels, std::ranges::not_equal_to()) !=
          input_.labels.end();
 }
 
 // Not every format has labels.
-void FileStep::tell_lost_labels() {
+void SolidStep::tell_lost_labels() {
   if (labels_differ()) report_.unproven.emplace_back("labels of the input (the file has none)");
 }
 
 // Labels that differ are lost in a file that lists no triangles, though its format has them.
-void FileStep::check_no_list() {
+void SolidStep::check_no_list() {
   if (!mesh_.lists_boundary) return tell_lost_labels();
   if (!labels_differ()) return;
   OracleReport list("boundary-list", "labels");
@@ -269,7 +204,7 @@ void FileStep::check_no_list() {
 }
 
 // Others than delmesher promise no names.
-void FileStep::check_names() {
+void SolidStep::check_names() {
   if (!mesh_.has_names || options_.promised.names) return;
   const std::vector<std::int64_t> labels(mesh_.labels.begin(), mesh_.labels.end());
   OracleReport names("names", "labels"), sides("names", "regions");
@@ -291,8 +226,8 @@ void FileStep::check_names() {
 }
 
 // Nothing is promised of the doubles as written, so these oracles only count and measure.
-void FileStep::check_quality(const TetComplex& complex, const Neighbours& neighbours,
-                             const InputSurface& surface, const ConformityResult& conformity) {
+void SolidStep::check_quality(const TetComplex& complex, const Neighbours& neighbours,
+                              const InputSurface& surface, const ConformityResult& conformity) {
   OracleReport delaunay =
       check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false});
   // A mesh all of whose faces are on the surface, as a single tetrahedron, has nothing to count.
@@ -302,33 +237,12 @@ void FileStep::check_quality(const TetComplex& complex, const Neighbours& neighb
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;
   measure_angles(complex, neighbours, complex.inside, angles);
   add(std::move(angles));
-  check_lengths(complex, conformity);
-}
-
-// A corner that chamfering cut off and that came back is not refined. Whether a long edge is at
-// such a corner is in the record: there the refined mesh, and what followed, are decided. Nothing
-// excuses one beside a surface that is kept and has no such edge.
-void FileStep::check_lengths(const TetComplex& complex, const ConformityResult& conformity) {
-  const double longest = options_.promised.max_edge * EdgeSizes::kMost;
-  const bool fine = std::ranges::all_of(conformity.faces, [&](const Face& face) {
-    const auto& [a, b, c] = face;
-    return std::max({exact::distance(*complex.points, a, b), exact::distance(*complex.points, b, c),
-                     exact::distance(*complex.points, c, a)}) <= longest;
-  });
-  const bool keep = options_.promised.keep;
-  for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, scope())) {
-    const bool edges = lengths.name == "edges";
-    if (!(keep && edges && fine)) {
-      excuse_long_edges(edges ? "--max-edge" : "--size-field", keep || exact_ != nullptr, lengths,
-                        report_.unproven);
-    }
-    add(std::move(lengths));
-  }
+  check_lengths(complex, conformity.faces);
 }
 
 // Steiner points on the outer boundary are rounded like all others.
-void FileStep::check_hull_of_file(const TetComplex& complex, const Neighbours& neighbours,
-                                  const InputSurface& surface) {
+void SolidStep::check_hull_of_file(const TetComplex& complex, const Neighbours& neighbours,
+                                   const InputSurface& surface) {
   // Of `mesh` the hull is that of a box, whose size is up to the mesher.
   const bool of_input = options_.promised.task == Task::cdt;
   if (!of_input && exact_ == nullptr && scope() == AngleScope::all) {
@@ -351,7 +265,7 @@ std::string InputStep::run() {
 }  // namespace
 
 std::unique_ptr<Step> check_file(const Subject& subject) {
-  return std::make_unique<FileStep>(subject);
+  return std::make_unique<SolidStep>(subject);
 }
 std::unique_ptr<Step> check_input(const Subject& subject) {
   return std::make_unique<InputStep>(subject);

@@ -47,7 +47,8 @@ constexpr PlannedStep kSteps[] = {
 
 }  // namespace
 
-std::vector<PlannedStep> plan(const ExactRecord* exact, Stage stage) {
+std::vector<PlannedStep> plan(const ExactRecord* exact, Stage stage, bool all_regions) {
+  if (all_regions) return {{check_regions, always, 0, kFile + kFileTetrahedra, 0}};
   std::vector<PlannedStep> steps;
   std::ranges::copy_if(kSteps, std::back_inserter(steps),
                        [&](const PlannedStep& step) { return step.wanted(exact, stage); });

@@ -66,6 +66,7 @@ class Step {
 using Start = std::unique_ptr<Step> (*)(const Subject&);
 std::unique_ptr<Step> check_file(const Subject& subject);              // file_checks.cpp
 std::unique_ptr<Step> check_input(const Subject& subject);             // file_checks.cpp
+std::unique_ptr<Step> check_regions(const Subject& subject);           // regions_checks.cpp
 std::unique_ptr<Step> check_sidecar(const Subject& subject);           // record_checks.cpp
 std::unique_ptr<Step> check_final(const Subject& subject);             // record_checks.cpp
 std::unique_ptr<Step> check_refined_complex(const Subject& subject);   // refined_checks.cpp
@@ -81,7 +82,8 @@ struct PlannedStep {
   unsigned frees;  // bulks that it reads, and is done with before it takes most of its memory
 };
 
-// The steps of this verification, in the order in which they begin.
-std::vector<PlannedStep> plan(const delmesher::ExactRecord* exact, Stage stage);
+// The steps of this verification, in the order in which they begin. `all_regions`: of
+// Promise::all_regions, of the file alone.
+std::vector<PlannedStep> plan(const delmesher::ExactRecord* exact, Stage stage, bool all_regions);
 
 }  // namespace tetproof::oracles

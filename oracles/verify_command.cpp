@@ -233,7 +233,11 @@ int verify_files(const Arguments& arguments) {
                           : task == Task::improve ? verify_improved_mesh(arguments, report)
                                                   : verify_mesh(arguments, report);
   if (!why.empty()) {
-    std::fprintf(stderr, "tetproof: %s: %s\n", arguments.input.c_str(), why.c_str());
+    const bool of_edges = why.starts_with("edge ") && task == Task::mesh;
+    std::fprintf(stderr, "tetproof: %s: %s%s\n", arguments.input.c_str(), why.c_str(),
+                 of_edges ? ", so it bounds no solid; several regions need --promised "
+                            "'mesh --regions all'"
+                          : "");
     return kInvalid;
   }
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);

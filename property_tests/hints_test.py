@@ -111,17 +111,17 @@ class Hints(unittest.TestCase):
                     self.assertNotIn("--fill", said.stdout)
                     self.assertEqual(run(DELMESHER, "plane", given, "-o", path(name + ".msh")).returncode, 0)
                     continue
-                commands = re.findall("`([^`]*)`", hint[0])
-                if not commands:
-                    self.assertIn("leave walls out", hint[0])
-                    continue
-                program, *arguments = shlex.split(commands[0])
-                seen.add((program, arguments[0]))
-                mended = path(name + ".mended.off")
-                done = run({"delmesher": DELMESHER, "tetproof": TETPROOF}[program], *arguments, given, "-o", mended)
-                self.assertEqual(done.returncode, 0, commands[0] + ": " + done.stderr + done.stdout)
-                self.assertEqual(run(DELMESHER, "check", mended).returncode, 0)
-        self.assertEqual(seen, {("delmesher", "repair"), ("tetproof", "union")})
+                for command in re.findall("`([^`]*)`", hint[0]):
+                    program, *arguments = shlex.split(command)
+                    seen.add((program, arguments[0]))
+                    meshes = arguments[0] == "mesh"
+                    result = path(name + (".msh" if meshes else ".mended.off"))
+                    done = run({"delmesher": DELMESHER, "tetproof": TETPROOF}[program], *arguments, given, "-o", result)
+                    self.assertEqual(done.returncode, 0, command + ": " + done.stderr + done.stdout)
+                    verify = [TETPROOF, "verify", given, result, "--promised", " ".join(arguments)]
+                    checked = run(*verify) if meshes else run(DELMESHER, "check", result)
+                    self.assertEqual(checked.returncode, 0, command + ": " + checked.stdout)
+        self.assertEqual(seen, {("delmesher", "mesh"), ("delmesher", "repair"), ("tetproof", "union")})
 
     def test_planar_graphs(self):
         for name, words, points, segments in graphs():

@@ -387,7 +387,11 @@ oracles::MeshFile to_mesh(const delmesher::TetMesh& mesh) {
   file.vertices = mesh.vertices;
   file.tetrahedra = mesh.tetrahedra;
   file.names_sides = true;
-  file.regions.assign(mesh.inside.begin(), mesh.inside.end());
+  if (mesh.regions.empty()) {
+    file.regions.assign(mesh.inside.begin(), mesh.inside.end());
+  } else {
+    file.regions.assign(mesh.regions.begin(), mesh.regions.end());
+  }
   file.boundary = mesh.boundary;
   file.labels = mesh.boundary_labels;
   file.facets = mesh.boundary_facets;

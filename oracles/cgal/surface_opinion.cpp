@@ -6,10 +6,12 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,7 +86,87 @@ void add_pairs_of_same_corners(const Mesh& mesh,
   }
 }
 
+// Triangles of a complex, by vertices of which no two are at one place.
+class Complex {
+ public:
+  explicit Complex(const Polyhedron& given) {
+    std::map<Position, std::size_t> vertex;
+    for (const auto& triangle : given.triangles) {
+      std::array<std::size_t, 3>& corners = corners_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        Position p = given.vertices[triangle[k]];
+        for (double& x : p) x += 0;  // -0 is 0
+        corners[k] = vertex.try_emplace(p, points_.size()).first->second;
+        if (corners[k] == points_.size()) points_.emplace_back(p[0], p[1], p[2]);
+      }
+    }
+  }
+
+  std::string defect() const {
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+      const auto& [a, b, c] = corners_[t];
+      if (CGAL::collinear(points_[a], points_[b], points_[c])) {
+        return "triangle " + std::to_string(t) + " is flat";
+      }
+      boxes.emplace_back(points_[a].bbox() + points_[b].bbox() + points_[c].bbox(), &corners_[t]);
+    }
+    std::string found;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& x, const Box& y) {
+      const std::size_t t = number(x), u = number(y);
+      if (!found.empty() || !meet_elsewhere(t, u)) return;
+      found = "triangles " + std::to_string(t) + " and " + std::to_string(u) + " intersect";
+    });
+    return found;
+  }
+
+ private:
+  using Corners = std::array<std::size_t, 3>;
+  using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Corners*>;
+
+  std::size_t number(const Box& box) const {
+    return static_cast<std::size_t>(box.handle() - corners_.data());
+  }
+  Kernel::Triangle_3 triangle(std::size_t t) const {
+    const auto& [a, b, c] = corners_[t];
+    return {points_[a], points_[b], points_[c]};
+  }
+  // The corners of t that u has not, then those that it has.
+  std::array<std::size_t, 3> apart_first(std::size_t t, std::size_t u) const {
+    std::array<std::size_t, 3> corners = corners_[t];
+    std::stable_partition(corners.begin(), corners.end(),
+                          [&](std::size_t v) { return std::ranges::count(corners_[u], v) == 0; });
+    return corners;
+  }
+  bool meet_elsewhere(std::size_t t, std::size_t u) const {
+    const std::array<std::size_t, 3> p = apart_first(t, u), q = apart_first(u, t);
+    const auto common = static_cast<std::size_t>(
+        std::ranges::count_if(p, [&](std::size_t v) { return std::ranges::count(q, v) > 0; }));
+    const auto at = [&](std::size_t v) { return points_[v]; };
+    switch (common) {
+      case 0:
+        return CGAL::do_intersect(triangle(t), triangle(u));
+      case 1:  // the sides opposite to the common corner
+        return CGAL::do_intersect(triangle(u), Kernel::Segment_3(at(p[0]), at(p[1]))) ||
+               CGAL::do_intersect(triangle(t), Kernel::Segment_3(at(q[0]), at(q[1])));
+      case 2:
+        return CGAL::coplanar(at(p[1]), at(p[2]), at(p[0]), at(q[0])) &&
+               CGAL::coplanar_orientation(at(p[1]), at(p[2]), at(p[0]), at(q[0])) == CGAL::POSITIVE;
+      default:
+        return false;
+    }
+  }
+
+  std::vector<Kernel::Point_3> points_;
+  std::vector<std::array<std::size_t, 3>> corners_;
+};
+
 }  // namespace
+
+std::string cgal_complex_defect(const Polyhedron& complex) {
+  const std::string reason = defect_of_lists(complex);
+  return reason.empty() ? Complex(complex).defect() : reason;
+}
 
 SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQuestions& questions) {
   SurfaceOpinion opinion;

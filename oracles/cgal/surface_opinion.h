@@ -26,6 +26,9 @@ struct SurfaceQuestions {
 };
 SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface,
                                     const SurfaceQuestions& questions = {});
+// What is wrong with a complex of triangles: one without area, or two that meet elsewhere than in
+// common vertices or an edge and are not the same. Vertices at one place are one. Empty: nothing.
+std::string cgal_complex_defect(const Polyhedron& complex);
 SurfaceOpinion openmesh_surface_opinion(const Polyhedron& surface);
 
 }  // namespace tetproof::oracles

@@ -196,9 +196,9 @@ void InputSurface::orient_components(const ExactPoints& points) {
       const auto& [a, b, c] = triangles_[t];
       const int up = sgn(exact::area2(points, a, b, c)[2]);
       if (up == 0) continue;
-      const int above = crossings_above(points, triangles_[t], t);
-      if (above < 0) continue;
-      if ((above % 2 == 0) != (up > 0)) {
+      const RayCrossings above = crossings_above(points, triangles_, *tree_, triangles_[t], t);
+      if (above.on_triangle) continue;
+      if ((above.count % 2 == 0) != (up > 0)) {
         for (const Index f : component) std::swap(triangles_[f][1], triangles_[f][2]);
         for (const Index f : component) std::swap(neighbours_[f][0], neighbours_[f][2]);
       }

@@ -166,8 +166,6 @@ class InputSurface {
   std::pair<double, double> heights(const Facet& facet, std::span<const Index> triangles,
                                     const ExactPoints& points) const;
   void build_edges();
-  int crossings_above(const ExactPoints& points, std::span<const Index> corners,
-                      Index except) const;
   void measure(const ExactPoints& points);
   // The side of a facet's plane on which a vertex lies, or 2 where doubles do not tell.
   static int rough_side(const ExactPoints& points, const Facet& facet, Index v);
@@ -185,6 +183,18 @@ class InputSurface {
   double diagonal_ = 0, largest_coordinate_ = 0;
   std::shared_ptr<const BoxTree> tree_;
 };
+
+// What the upward ray from the centroid of some points, moved by (e, e^2) for an infinitesimal e,
+// crosses of some triangles, whose boxes are in the tree; without triangle `except`.
+struct RayCrossings {
+  std::uint64_t count = 0;
+  std::int64_t winding = 0;  // those seen counter-clockwise from above less the others
+  bool on_triangle = false;  // the centroid is on one, and nothing was counted
+};
+RayCrossings crossings_above(const ExactPoints& points,
+                             const std::vector<std::array<Index, 3>>& triangles,
+                             const BoxTree& tree, std::span<const Index> corners,
+                             Index except = kNone);
 
 // The smallest box that certainly contains the points.
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);

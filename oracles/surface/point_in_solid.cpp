@@ -361,39 +361,39 @@ BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corner
   return box;
 }
 
-// The number of crossings of the surface with the upward ray from the centroid, without triangle
-// `except`; -1 if the centroid lies on a triangle.
-int InputSurface::crossings_above(const ExactPoints& points, std::span<const Index> corners,
-                                  Index except) const {
+RayCrossings crossings_above(const ExactPoints& points,
+                             const std::vector<std::array<Index, 3>>& triangles,
+                             const BoxTree& tree, std::span<const Index> corners, Index except) {
   const Centroid q(points, corners);
   const IntervalVector p = q.position();
   thread_local std::vector<Index> found;  // allocating would take as long as the search
   found.clear();
-  tree_->query({{p[0].low, p[1].low, p[2].low},
-                {p[0].high, p[1].high, std::numeric_limits<double>::infinity()}},
-               found);
-  int crossings = 0;
+  tree.query({{p[0].low, p[1].low, p[2].low},
+              {p[0].high, p[1].high, std::numeric_limits<double>::infinity()}},
+             found);
+  RayCrossings crossings;
   for (const Index t : found) {
-    const auto& [a, b, c] = triangles_[t];
+    const auto& [a, b, c] = triangles[t];
     const int s = side_above(points, a, b, q);
     if (t == except || s == 0 || side_above(points, b, c, q) != s ||
         side_above(points, c, a, q) != s) {
       continue;
     }
-    if (is_above(points, triangles_[t], p[2].high)) {
-      ++crossings;
-      continue;
+    int height = -1;
+    if (!is_above(points, triangles[t], p[2].high)) {
+      height = side_of_plane(points, triangles[t], q) * s;
     }
-    const int height = side_of_plane(points, triangles_[t], q) * s;
-    if (height == 0) return -1;
-    if (height < 0) ++crossings;
+    if (height == 0) return {.on_triangle = true};
+    if (height > 0) continue;
+    ++crossings.count;
+    crossings.winding += s;
   }
   return crossings;
 }
 
 int InputSurface::inside(const ExactPoints& points, std::span<const Index> corners) const {
-  const int crossings = crossings_above(points, corners, kNone);
-  return crossings < 0 ? -1 : crossings % 2;
+  const RayCrossings crossings = crossings_above(points, triangles_, *tree_, corners);
+  return crossings.on_triangle ? -1 : static_cast<int>(crossings.count % 2);
 }
 
 // The height is a sum of three products. Each component of the normal is off by at most half the

@@ -21,4 +21,13 @@ OracleReport check_surface_validity(const Polyhedron& surface) {
   return report;
 }
 
+OracleReport check_complex_validity(const Polyhedron& complex) {
+  OracleReport report("input", "triangles");
+  report.checked = complex.triangles.size();
+  if (const std::string reason = cgal_complex_defect(complex); !reason.empty()) {
+    report.fail("CGAL: " + reason);
+  }
+  return report;
+}
+
 }  // namespace tetproof::oracles

@@ -12,4 +12,8 @@ namespace tetproof::oracles {
 // intersections are not looked for.
 OracleReport check_surface_validity(const Polyhedron& surface);
 
+// The triangles of a complex have area, and two of them meet in common vertices or an edge alone,
+// or are the same. CGAL decides.
+OracleReport check_complex_validity(const Polyhedron& complex);
+
 }  // namespace tetproof::oracles

@@ -122,6 +122,11 @@ constexpr Option kOptions[] = {
      .takes = Takes::word,
      .target = &Promise::keep,
      .words = {"split", "keep"}},
+    {.name = "--regions",
+     .tasks = kMesh,
+     .takes = Takes::word,
+     .target = &Promise::all_regions,
+     .words = {"solid", "all"}},
     {"--strict", kMesh, Takes::nothing, &Promise::strict},
     {.name = "--improve",
      .tasks = kMesh,
@@ -243,6 +248,7 @@ std::string choose(const std::string& list, Promise& p) {
 }
 
 void set_kept(Promise& p) {
+  p.keep = true;
   p.task = Task::cdt;
   p.planar = 0;
 }
@@ -270,7 +276,7 @@ class PromiseReader {
       std::string option = words_[next_++];
       if (std::string why = apply(std::move(option), p); !why.empty()) return why;
     }
-    if (p.keep) set_kept(p);
+    if (p.keep || p.all_regions) set_kept(p);
     return {};
   }
 
@@ -614,7 +620,8 @@ Promise promise_of(const delmesher::Options& options) {
   p.strict = options.strict;
   p.may_keep = options.surface == delmesher::SurfaceChoice::automatic;
   p.keep = options.surface == delmesher::SurfaceChoice::keep;
-  if (p.keep) set_kept(p);
+  p.all_regions = options.regions == delmesher::Regions::all;
+  if (p.keep || p.all_regions) set_kept(p);
   return p;
 }
 

@@ -37,7 +37,9 @@ struct Promise {
   // The surface was to be kept. Then the task is cdt: a tetrahedrization of the surface, which
   // local operations have changed.
   bool keep = false;
-  bool may_keep = false;      // or split: the record shows which
+  bool may_keep = false;  // or split: the record shows which
+  // Every part of space that the triangles bound is a region of its own; the surface is kept.
+  bool all_regions = false;
   bool strict = false;        // without an exception
   bool names = false;         // sets are called by names of another file
   bool second_order = false;  // ten-node tetrahedra, in formats that have them

@@ -1,0 +1,31 @@
+// What the steps on the mesh as it was written have in common.
+#pragma once
+
+#include <span>
+
+#include "oracles/mesh/tet_complex.h"
+#include "oracles/plan.h"
+
+namespace tetproof::oracles {
+
+class FileStep : public Step {
+ public:
+  using Step::Step;
+
+ protected:
+  // Are all coordinates of the file finite?
+  bool check_finite();
+  // Nodes of edges, the number of vertices, and what the file says of its planar facets.
+  void check_contents();
+  // The tetrahedra on points, which have the vertices of the input first; their neighbours and
+  // signs. False if nothing else can be asked. `is_part`: as of check_complex.
+  bool check_tetrahedra(const ExactPoints& points, bool is_part, TetComplex& complex,
+                        Neighbours& neighbours);
+  // Edges that are longer than promised. `surface`: faces whose edges the mesh may have to keep.
+  void check_lengths(const TetComplex& complex, std::span<const Face> surface);
+
+ private:
+  void turn_all(TetComplex& complex) const;
+};
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,392 @@
+#include "oracles/mesh/parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "oracles/base/edge_key.h"
+#include "oracles/base/union_find.h"
+#include "oracles/surface/input_surface.h"
+
+namespace tetproof::oracles {
+namespace {
+
+constexpr Index kNobody = kNone;
+
+// A triangle of the input, once, by the vertices of the mesh where these are at its corners.
+struct Triangle {
+  Face corners;
+  Face sorted;
+  std::vector<std::int32_t> labels;
+  Index given = 0;  // the first one
+  // The tetrahedron in front, where its corners are seen counter-clockwise, and the one behind.
+  std::array<Index, 2> beside = {kNobody, kNobody};
+};
+
+class Parts {
+ public:
+  Parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
+        const Neighbours& neighbours)
+      : input_(input),
+        mesh_(mesh),
+        complex_(complex),
+        neighbours_(neighbours),
+        points_(*complex.points),
+        part_(complex.tetrahedra.size()) {}
+
+  PartsResult run(double near, std::uint64_t& split) {
+    collect_triangles();
+    result_.parts.checked = triangles_.size();
+    connect();
+    check_outer_faces();
+    check_bare();
+    check_missing();
+    check_regions();
+    check_names();
+    check_list();
+    split = 0;
+    if (near > 0 && !missing_.empty() && missing_.size() <= kMostSplit &&
+        std::ranges::all_of(missing_, [&](Index t) { return is_split(triangles_[t], near); })) {
+      split = missing_.size();
+      for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
+        report->undecided = report->violations > 0;
+      }
+      result_.parts.notes.emplace_back(
+          "triangles have vertices that are no corners: whether faces tile them is not decided");
+    }
+    return std::move(result_);
+  }
+
+ private:
+  // A mesh that splits more has not kept the surface.
+  static constexpr std::size_t kMostSplit = 1000;
+
+  // Has the mesh the corners, and a vertex on the triangle besides?
+  bool is_split(const Triangle& t, double near) const {
+    if (*std::ranges::min_element(t.corners) < complex_.first_vertex) return false;
+    const auto at = [&](Index v) { return points_.nearest(v); };
+    const Position a = at(t.corners[0]), u = between(a, at(t.corners[1])),
+                   v = between(a, at(t.corners[2]));
+    const Position n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                        u[0] * v[1] - u[1] * v[0]};
+    const double size = std::hypot(n[0], n[1], n[2]);
+    const BoxTree::Box box = enlarged(box_around(points_, t.corners), near);
+    return std::ranges::any_of(mesh_.vertices, [&](const Position& p) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
+      }
+      const Position w = between(a, p);
+      return std::ranges::none_of(t.corners, [&](Index corner) { return at(corner) == p; }) &&
+             std::fabs(w[0] * n[0] + w[1] * n[1] + w[2] * n[2]) <= near * size;
+    });
+  }
+  static Position between(const Position& p, const Position& q) {
+    return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  }
+
+  std::string name(const Triangle& t) const { return "triangle " + std::to_string(t.given); }
+
+  // One vertex of several at the same place: one of the mesh, if there is one.
+  std::vector<Index> vertices_by_place() const {
+    std::vector<Index> order(input_.vertices.size() + mesh_.vertices.size()), first(order.size());
+    for (Index v = 0; v < order.size(); ++v) order[v] = v;
+    const auto place = [&](Index v) -> const Position& {
+      return v < complex_.first_vertex ? input_.vertices[v]
+                                       : mesh_.vertices[v - complex_.first_vertex];
+    };
+    std::ranges::sort(order, [&](Index a, Index b) {
+      if (place(a) != place(b)) return place(a) < place(b);
+      return (a < complex_.first_vertex) != (b < complex_.first_vertex) ? a >= complex_.first_vertex
+                                                                        : a < b;
+    });
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      const bool same = n > 0 && place(order[n]) == place(order[n - 1]);
+      first[order[n]] = same ? first[order[n - 1]] : order[n];
+    }
+    return first;
+  }
+
+  void collect_triangles() {
+    const std::vector<Index> vertex = vertices_by_place();
+    std::map<Face, Index> known;
+    for (Index t = 0; t < input_.triangles.size(); ++t) {
+      Triangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = vertex[input_.triangles[t][k]];
+      triangle.sorted = triangle.corners;
+      sort_face(triangle.sorted);
+      triangle.given = t;
+      const auto [at, fresh] =
+          known.try_emplace(triangle.sorted, static_cast<Index>(triangles_.size()));
+      if (fresh) triangles_.push_back(triangle);
+      triangles_[at->second].labels.push_back(input_.labels.empty() ? 0 : input_.labels[t]);
+    }
+    by_corners_ = std::move(known);
+  }
+
+  Index triangle_of(Face face) const {
+    sort_face(face);
+    const auto at = by_corners_.find(face);
+    return at == by_corners_.end() ? kNobody : at->second;
+  }
+
+  // Tetrahedra across faces that are no triangles become one part.
+  void connect() {
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      for (int i = 0; i < 4; ++i) {
+        const Face face = face_of(complex_.tetrahedra[t], i);
+        const Index across = neighbours_.across[4 * t + static_cast<Index>(i)];
+        const Index n = triangle_of(face);
+        if (n == kNobody && across == kNone) {
+          result_.parts.fail(complex_.face_name(face) +
+                             " is of one tetrahedron alone, and no triangle of the input");
+        } else if (n == kNobody) {
+          part_.unite(t, across / 4);
+        } else {
+          // The face is seen counter-clockwise from outside the tetrahedron.
+          Face sorted = face, corners = triangles_[n].corners;
+          const bool same = sort_face(sorted) == sort_face(corners);
+          triangles_[n].beside[same ? 1 : 0] = t;
+        }
+        if (across == kNone) outer_.push_back(face);
+      }
+    }
+  }
+
+  void plant(std::vector<Face> faces) {
+    std::vector<BoxTree::Box> boxes;
+    for (const Face& face : faces) boxes.push_back(box_around(points_, face));
+    tree_ = std::make_unique<BoxTree>(std::move(boxes));
+    planted_ = std::move(faces);
+  }
+
+  // Does a face look up, or, if it is upright, to where rays are moved?
+  bool looks_up(const Face& face) const {
+    const ExactVector n = exact::area2(points_, face[0], face[1], face[2]);
+    const int up = sgn(n[2]), x = sgn(n[0]);
+    return up != 0 ? up > 0 : x != 0 ? x > 0 : sgn(n[1]) > 0;
+  }
+
+  // The ray begins just beyond the face, on the side to which it was moved or goes up.
+  void check_outer_faces() {
+    plant(outer_);
+    for (Index n = 0; n < planted_.size(); ++n) {
+      const Face& face = planted_[n];
+      const RayCrossings above = crossings_above(points_, planted_, *tree_, face, n);
+      if (above.on_triangle) {
+        result_.parts.fail(complex_.face_name(face) + " lies on another outer face");
+      } else if (above.winding != (looks_up(face) ? 0 : 1)) {
+        result_.parts.fail("beside " + complex_.face_name(face) +
+                           " the outer faces wind around a point not 0 or 1 times");
+      }
+    }
+  }
+
+  // Triangles that are no faces are outside of all tetrahedra, and so are both of their sides.
+  void check_bare() {
+    std::uint64_t bare = 0;
+    for (Index n = 0; n < triangles_.size(); ++n) {
+      const Triangle& t = triangles_[n];
+      if (t.beside[0] != kNobody || t.beside[1] != kNobody) continue;
+      ++bare;
+      const RayCrossings above = crossings_above(points_, planted_, *tree_, t.corners);
+      if (above.on_triangle || above.winding != 0) {
+        result_.parts.fail(name(t) + " is not a face of the mesh");
+        missing_.push_back(n);
+      }
+    }
+    result_.parts.figures.emplace_back("triangles that bound nothing", static_cast<double>(bare));
+  }
+
+  // A side of a triangle, front or back.
+  static Index side(Index triangle, bool behind) { return 2 * triangle + (behind ? 1 : 0); }
+
+  struct AtEdge {
+    Index triangle, apex;
+    bool runs_along;  // does the triangle run from the smaller to the larger end?
+  };
+
+  // Joins the empty sides around each edge.
+  void check_missing() {
+    std::map<std::uint64_t, std::vector<AtEdge>> edges;
+    for (Index n = 0; n < triangles_.size(); ++n) {
+      const Face& c = triangles_[n].corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = c[k], b = c[(k + 1) % 3];
+        edges[edge_key(a, b)].push_back({n, c[(k + 2) % 3], a < b});
+      }
+    }
+    UnionFind shells(2 * triangles_.size());
+    for (auto& [key, around] : edges) {
+      const auto low = static_cast<Index>(key >> 32), high = static_cast<Index>(key);
+      sort_around(low, high, around);
+      for (std::size_t n = 0; n < around.size(); ++n) {
+        const AtEdge &here = around[n], &next = around[n + 1 < around.size() ? n + 1 : 0];
+        // A triangle that runs along the edge looks to where one turns to the left around it.
+        const bool behind = !here.runs_along, next_behind = next.runs_along;
+        const bool empty = is_empty(here.triangle, behind);
+        if (empty != is_empty(next.triangle, next_behind)) {
+          result_.parts.fail("between " + name(triangles_[here.triangle]) + " and " +
+                             name(triangles_[next.triangle]) + " there is a part of a wedge");
+        } else if (empty) {
+          shells.unite(side(here.triangle, behind), side(next.triangle, next_behind));
+        }
+      }
+    }
+    sum_up(shells);
+  }
+
+  bool is_empty(Index triangle, bool behind) const {
+    return triangles_[triangle].beside[behind ? 1 : 0] == kNobody;
+  }
+
+  // Turning to the left around the edge, from the first one on.
+  void sort_around(Index low, Index high, std::vector<AtEdge>& around) const {
+    if (around.size() < 3) return;
+    const Index first = around.front().apex;
+    const auto half = [&](Index apex) {
+      if (apex == first) return 0;
+      const int s = exact::orient3d(points_, low, high, first, apex);
+      return s > 0 ? 1 : s == 0 ? 2 : 3;
+    };
+    std::stable_sort(around.begin(), around.end(), [&](const AtEdge& a, const AtEdge& b) {
+      const int i = half(a.apex), j = half(b.apex);
+      return i != j ? i < j : exact::orient3d(points_, low, high, a.apex, b.apex) > 0;
+    });
+  }
+
+  void sum_up(UnionFind& shells) {
+    exact::Volume6 volume6;
+    std::map<Index, ExactSum> volumes;
+    std::map<Index, Index> first;
+    for (Index n = 0; n < triangles_.size(); ++n) {
+      for (const bool behind : {false, true}) {
+        if (!is_empty(n, behind)) continue;
+        const Index shell = shells.find(side(n, behind));
+        const ExactNumber& volume = volume6.from_origin(points_, triangles_[n].corners);
+        // Seen from what is on its side, a triangle is turned the other way in front.
+        behind ? volumes[shell] += volume : volumes[shell] -= volume;
+        first.try_emplace(shell, n);
+      }
+    }
+    for (const auto& [shell, volume] : volumes) {
+      if (volume.sign() <= 0) continue;
+      result_.parts.fail("a part that is bounded by " + name(triangles_[first[shell]]) +
+                         " has no tetrahedra");
+    }
+  }
+
+  void check_regions() {
+    std::map<Index, std::int64_t> region_of;
+    std::map<std::int64_t, Index> part_of;
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      const Index part = part_.find(t);
+      if (mesh_.regions.empty()) {
+        region_of.try_emplace(part, 0);
+        continue;
+      }
+      const std::int64_t region = mesh_.regions[t];
+      const std::int64_t other = region_of.try_emplace(part, region).first->second;
+      if (other != region) {
+        result_.regions.fail(complex_.tet_name(t) + " is of region " + std::to_string(region) +
+                             ", others of its part are of region " + std::to_string(other));
+      } else if (part_of.try_emplace(region, part).first->second != part) {
+        result_.regions.fail(complex_.tet_name(t) + " is of region " + std::to_string(region) +
+                             ", and so is another part");
+      }
+    }
+    result_.regions.checked = region_of.size();
+    result_.regions.figures.emplace_back("parts", static_cast<double>(region_of.size()));
+    if (!mesh_.regions.empty()) return;
+    if (region_of.size() > 1 && mesh_.names_sides) {
+      result_.regions.fail("the file has no regions, and the input has several");
+    } else {
+      result_.regions.notes.emplace_back("the file has no regions");
+    }
+  }
+
+  // By a point of the region; the whole region is on the same side, as no triangle enters it.
+  void check_names() {
+    std::map<std::string, std::set<std::int32_t>> labels;
+    for (const auto& [key, text] : input_.names) {
+      if (key.first == 2) labels[text].insert(static_cast<std::int32_t>(key.second));
+    }
+    std::set<std::int64_t> seen;
+    for (Index t = 0; t < mesh_.regions.size(); ++t) {
+      if (!seen.insert(mesh_.regions[t]).second) continue;
+      const auto named = mesh_.names.find({3, mesh_.regions[t]});
+      if (named == mesh_.names.end()) continue;
+      const auto label = labels.find(named->second);
+      if (label == labels.end() || label->second.size() > 1) continue;
+      std::vector<Face> surface;
+      for (const Triangle& triangle : triangles_) {
+        if (std::ranges::count(triangle.labels, *label->second.begin()) % 2 != 0) {
+          surface.push_back(triangle.corners);
+        }
+      }
+      plant(surface);
+      const RayCrossings above = crossings_above(points_, planted_, *tree_, complex_.tetrahedra[t]);
+      if (above.on_triangle || above.count % 2 == 0) {
+        result_.regions.fail("region " + std::to_string(mesh_.regions[t]) + " is called " +
+                             named->second + ", and lies outside of that");
+      }
+    }
+  }
+
+  void check_list() {
+    if (mesh_.boundary.empty()) {
+      if (mesh_.lists_boundary) result_.list.fail("the file lists no triangles");
+      return;
+    }
+    std::vector<std::uint8_t> listed(triangles_.size(), 0);
+    result_.list.checked = mesh_.boundary.size();
+    for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
+      Face face = mesh_.boundary[n];
+      const std::string what = "listed triangle " + std::to_string(n);
+      for (Index& v : face) v += complex_.first_vertex;
+      const Index t = triangle_of(face);
+      if (t == kNobody) {
+        result_.list.fail(what + " is none of the input");
+        continue;
+      }
+      if (listed[t]++ != 0) result_.list.fail(what + " is listed twice");
+      if (n < mesh_.labels.size() && !input_.labels.empty() &&
+          std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
+        result_.list.fail(what + " has label " + std::to_string(mesh_.labels[n]) + ", and " +
+                          name(triangles_[t]) + " has not");
+      }
+    }
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      const bool face = triangles_[t].beside[0] != kNobody || triangles_[t].beside[1] != kNobody;
+      if (face && listed[t] == 0) result_.list.fail(name(triangles_[t]) + " is not listed");
+    }
+  }
+
+  const Polyhedron& input_;
+  const MeshFile& mesh_;
+  const TetComplex& complex_;
+  const Neighbours& neighbours_;
+  const ExactPoints& points_;
+  std::vector<Triangle> triangles_;
+  std::map<Face, Index> by_corners_;
+  UnionFind part_;
+  std::vector<Face> outer_, planted_;  // planted: in the tree
+  std::unique_ptr<BoxTree> tree_;
+  std::vector<Index> missing_;  // triangles that are no faces and should be
+  PartsResult result_;
+};
+
+}  // namespace
+
+std::uint64_t check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
+                          const Neighbours& neighbours, double near, PartsResult& result) {
+  std::uint64_t split = 0;
+  result = Parts(input, mesh, complex, neighbours).run(near, split);
+  return split;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,77 @@
+// The oracles on the mesh of a complex, with a region for each part of space that it bounds, as it
+// was written.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "oracles/file_step.h"
+#include "oracles/mesh/angles.h"
+#include "oracles/mesh/parts.h"
+#include "oracles/surface/surface_validity.h"
+
+namespace tetproof::oracles {
+namespace {
+
+class RegionsStep final : public FileStep {
+ public:
+  using FileStep::FileStep;
+  std::string run() override;
+
+ private:
+  void measure_input();
+};
+
+void RegionsStep::measure_input() {
+  double largest = 0;
+  for (const auto& triangle : input_.triangles) {
+    for (const Index v : triangle) {
+      for (const double x : input_.vertices[v]) largest = std::max(largest, std::fabs(x));
+    }
+  }
+  ulp_ = std::ldexp(1.0, std::ilogb(largest) - 52);
+  diagonal_ = diagonal_of(input_);
+}
+
+std::string RegionsStep::run() {
+  if (exact_ != nullptr) return "a record is not of several regions";
+#ifdef TETPROOF_SECOND_OPINIONS
+  add(check_complex_validity(input_));
+#endif
+  if (!check_finite()) return {};
+  ExactPoints points;
+  std::vector<Position> positions = input_.vertices;
+  positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
+  if (std::string why = points.assign(positions); !why.empty()) return why;
+  measure_input();
+  check_contents();
+  TetComplex complex;
+  Neighbours neighbours;
+  if (!check_tetrahedra(points, true, complex, neighbours)) return {};
+  PartsResult parts;
+  const std::uint64_t split =
+      check_parts(input_, mesh_, complex, neighbours,
+                  options_.promised.strict ? 0 : kRoundedUlps * ulp_, parts);
+  if (split > 0) {
+    report_.unproven.push_back("--regions all (" + std::to_string(split) + " triangles are split)");
+  }
+  add(std::move(parts.parts));
+  add(std::move(parts.regions));
+  if (mesh_.lists_boundary || parts.list.checked > 0) add(std::move(parts.list));
+  complex.inside.assign(complex.tetrahedra.size(), 1);
+  OracleReport angles("angles", "tetrahedra inside");
+  angles.promised = false;
+  angles.checked = complex.tetrahedra.size();
+  measure_angles(complex, neighbours, complex.inside, angles);
+  add(std::move(angles));
+  check_lengths(complex, input_.triangles);
+  return {};
+}
+
+}  // namespace
+
+std::unique_ptr<Step> check_regions(const Subject& subject) {
+  return std::make_unique<RegionsStep>(subject);
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,510 @@
+// Laws of meshes of complexes (Regions::all), decided by the oracles; and what the oracles make of
+// such meshes when they are damaged.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <queue>
+#include <random>
+#include <set>
+#include <string>
+
+#include "mesher/delmesher.h"
+#include "oracles/verify.h"
+#include "property_tests/lie.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using delmesher::Options;
+using delmesher::Regions;
+using delmesher::Result;
+using delmesher::StatusCode;
+using delmesher::Surface;
+using oracles::MeshFile;
+using oracles::Polyhedron;
+using oracles::VerifyReport;
+
+constexpr std::uint64_t kSeed = 20261129;
+
+Options all_regions() {
+  Options options;
+  options.regions = Regions::all;
+  return options;
+}
+
+VerifyReport verified(const Polyhedron& input, const MeshFile& mesh) {
+  VerifyReport report;
+  EXPECT_EQ(oracles::verify(input, mesh, nullptr, {.promised = oracles::promise_of(all_regions())},
+                            report),
+            "");
+  return report;
+}
+
+// Volumes of the regions that there should be, the largest first.
+void expect_regions(const Surface& surface, std::vector<double> volumes) {
+  const Result result = delmesher::tetrahedralize(surface, all_regions());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  std::ranges::sort(volumes, std::greater());
+  ASSERT_EQ(result.regions.size(), volumes.size());
+  for (std::size_t n = 0; n < volumes.size(); ++n) {
+    EXPECT_NEAR(result.regions[n].volume, volumes[n], 1e-9 * volumes[0]);
+  }
+  EXPECT_EQ(result.statistics.left_on_surface, 0U);
+  const VerifyReport report =
+      verified(samples::to_polyhedron(surface), samples::to_mesh(result.mesh));
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+}
+
+class Builder {
+ public:
+  std::uint32_t vertex(const std::array<double, 3>& p) {
+    const auto [at, fresh] = number_.try_emplace(p, surface_.vertices.size());
+    if (fresh) surface_.vertices.push_back(p);
+    return static_cast<std::uint32_t>(at->second);
+  }
+  void triangle(const std::array<double, 3>& a, const std::array<double, 3>& b,
+                const std::array<double, 3>& c, int label = 0) {
+    surface_.triangles.push_back({vertex(a), vertex(b), vertex(c)});
+    surface_.labels.push_back(label);
+  }
+  void square(const std::array<double, 3>& a, const std::array<double, 3>& b,
+              const std::array<double, 3>& c, const std::array<double, 3>& d, int label = 0) {
+    triangle(a, b, c, label);
+    triangle(a, c, d, label);
+  }
+  // An axis-parallel box.
+  void box(const std::array<double, 3>& low, const std::array<double, 3>& high, int label = 0) {
+    const auto at = [&](int x, int y, int z) -> std::array<double, 3> {
+      return {x != 0 ? high[0] : low[0], y != 0 ? high[1] : low[1], z != 0 ? high[2] : low[2]};
+    };
+    square(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0), label);
+    square(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1), label);
+    square(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1), label);
+    square(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0), label);
+    square(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0), label);
+    square(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), label);
+  }
+  const Surface& surface() const { return surface_; }
+
+ private:
+  Surface surface_;
+  std::map<std::array<double, 3>, std::size_t> number_;
+};
+
+// A number for each cell of a grid, 0 where there is nothing.
+using Cell = std::array<int, 3>;
+using Materials = std::map<Cell, int>;
+
+int at(const Materials& materials, const Cell& cell) {
+  const auto found = materials.find(cell);
+  return found == materials.end() ? 0 : found->second;
+}
+
+// The walls between different materials, triangulated and turned at random.
+Surface walls_of(const Materials& materials, int n, std::mt19937_64& random) {
+  Builder builder;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int x = 0; x <= n; ++x) {
+      for (int y = 0; y < n; ++y) {
+        for (int z = 0; z < n; ++z) {
+          Cell cell;
+          cell[axis] = x;
+          cell[(axis + 1) % 3] = y;
+          cell[(axis + 2) % 3] = z;
+          Cell before = cell;
+          --before[axis];
+          if (at(materials, cell) == at(materials, before)) continue;
+          std::array<std::array<double, 3>, 4> corner;
+          for (int k = 0; k < 4; ++k) {
+            Cell c = cell;
+            c[(axis + 1) % 3] += k == 1 || k == 2 ? 1 : 0;
+            c[(axis + 2) % 3] += k >= 2 ? 1 : 0;
+            corner[k] = {double(c[0]), double(c[1]), double(c[2])};
+          }
+          const int first = static_cast<int>(random() % 2);
+          const auto corner_at = [&](int k) { return corner[(k + first) % 4]; };
+          builder.triangle(corner_at(0), corner_at(1), corner_at(2));
+          random() % 2 != 0 ? builder.triangle(corner_at(0), corner_at(2), corner_at(3))
+                            : builder.triangle(corner_at(0), corner_at(3), corner_at(2));
+        }
+      }
+    }
+  }
+  return builder.surface();
+}
+
+// The volumes of what equal cells that share sides make, but for what reaches the border.
+std::vector<double> volumes_of(const Materials& materials, int n) {
+  std::map<Cell, bool> seen;
+  std::vector<double> volumes;
+  const auto flood = [&](const Cell& start) {
+    double volume = 0;
+    bool bounded = true;
+    std::queue<Cell> queue;
+    queue.push(start);
+    seen[start] = true;
+    while (!queue.empty()) {
+      const Cell cell = queue.front();
+      queue.pop();
+      ++volume;
+      for (int k = 0; k < 6; ++k) {
+        Cell next = cell;
+        next[k / 2] += k % 2 != 0 ? 1 : -1;
+        if (next[k / 2] < -1 || next[k / 2] > n) {
+          bounded = false;
+        } else if (at(materials, next) == at(materials, cell) && !seen[next]) {
+          seen[next] = true;
+          queue.push(next);
+        }
+      }
+    }
+    if (bounded) volumes.push_back(volume);
+  };
+  for (int x = 0; x < n; ++x) {
+    for (int y = 0; y < n; ++y) {
+      for (int z = 0; z < n; ++z) {
+        if (!seen[{x, y, z}]) flood({x, y, z});
+      }
+    }
+  }
+  return volumes;
+}
+
+TEST(AllRegions, OfMaterialsInAGrid) {
+  for (int i = 0; i < samples::iterations(8); ++i) {
+    SCOPED_TRACE(i);
+    std::mt19937_64 random(kSeed + static_cast<std::uint64_t>(i));
+    const int n = 2 + i % 4, materials = 1 + i % 3;
+    Materials cells;
+    for (int x = 0; x < n; ++x) {
+      for (int y = 0; y < n; ++y) {
+        for (int z = 0; z < n; ++z) {
+          cells[{x, y, z}] = static_cast<int>(random() % static_cast<unsigned>(materials + 1));
+        }
+      }
+    }
+    const std::vector<double> volumes = volumes_of(cells, n);
+    if (!volumes.empty()) expect_regions(walls_of(cells, n, random), volumes);
+  }
+}
+
+// Lengths 1 and root 2 meet at 45 degrees, eight in a plane: points halving them in turn lie on
+// each other's spheres.
+TEST(AllRegions, OfACheckerboard) {
+  constexpr int kSize = 6;
+  std::mt19937_64 random(kSeed);
+  Materials cells;
+  for (int x = 0; x < kSize; ++x) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int z = 0; z < kSize; ++z) cells[{x, y, z}] = 1 + (x + y + z) % 2;
+    }
+  }
+  expect_regions(walls_of(cells, kSize, random), std::vector<double>(kSize * kSize * kSize, 1));
+}
+
+// In one of a few ulp there is no room for a point that leaves an edge.
+TEST(AllRegions, OfThinLayers) {
+  for (const double thickness : {0.5, 1e-3, 1e-6, 1e-9}) {
+    SCOPED_TRACE(thickness);
+    Builder builder;
+    builder.box({0, 0, 0}, {1, 1, 1}, 1);
+    builder.box({0, 0, 1}, {1, 1, 1 + thickness}, 2);
+    builder.box({0, 0, 1 + thickness}, {1, 1, 3}, 3);
+    expect_regions(builder.surface(), {1, thickness, 2 - thickness});
+  }
+}
+
+// Sheets round an edge, each cut off by one triangle above and one below to the next.
+TEST(AllRegions, OfSheetsRoundAnEdge) {
+  for (const int sheets : {3, 5, 16, 64}) {
+    SCOPED_TRACE(sheets);
+    Builder builder;
+    std::vector<double> volumes;
+    const double turn = 2 * std::numbers::pi / sheets;
+    const auto apex = [&](int k) -> std::array<double, 3> {
+      return {std::cos(turn * (k % sheets)), std::sin(turn * (k % sheets)), 0.5};
+    };
+    for (int k = 0; k < sheets; ++k) {
+      builder.triangle({0, 0, 0}, {0, 0, 1}, apex(k));
+      builder.triangle({0, 0, 0}, apex(k), apex(k + 1));
+      builder.triangle({0, 0, 1}, apex(k), apex(k + 1));
+      volumes.push_back(std::sin(turn) / 6);
+    }
+    expect_regions(builder.surface(), volumes);
+  }
+}
+
+// A crack that ends inside, one that hangs on a wall, and one that is outside of everything.
+TEST(AllRegions, WithSheets) {
+  Builder builder;
+  builder.box({0, 0, 0}, {4, 4, 4});
+  builder.square({1, 1, 2}, {2, 1, 2}, {2, 3, 2.5}, {1, 3, 2.5});
+  builder.triangle({0, 0, 4}, {4, 4, 4}, {2, 2, 3});
+  const std::size_t inside = builder.surface().triangles.size();
+  expect_regions(builder.surface(), {64});
+  builder.triangle({5, 5, 5}, {6, 5, 5}, {5, 6, 5});
+  expect_regions(builder.surface(), {64});
+  const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
+  EXPECT_EQ(result.mesh.boundary.size(), inside);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("1 triangles are left out"), std::string::npos);
+}
+
+TEST(AllRegions, HaveTheLabelOfTheSmallestSolidAround) {
+  Builder builder;
+  builder.box({0, 0, 0}, {4, 4, 4}, 7);
+  builder.box({1, 1, 1}, {2, 2, 2}, 3);
+  builder.box({4, 0, 0}, {6, 4, 4}, 9);
+  const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
+  ASSERT_TRUE(result.status.ok());
+  ASSERT_EQ(result.regions.size(), 3U);
+  EXPECT_EQ(result.regions[0].label, 7);
+  EXPECT_EQ(result.regions[1].label, 9);
+  EXPECT_EQ(result.regions[2].label, 3);
+  // A label whose triangles are not closed bounds nothing.
+  Surface torn = builder.surface();
+  for (std::size_t t = 0; t < torn.triangles.size(); ++t) {
+    if (torn.labels[t] == 3) torn.labels[t] = static_cast<int>(30 + t);
+  }
+  const Result other = delmesher::tetrahedralize(torn, all_regions());
+  ASSERT_EQ(other.regions.size(), 3U);
+  EXPECT_EQ(other.regions[2].label, 7);
+}
+
+TEST(AllRegions, NeedARegion) {
+  Builder builder;
+  builder.square({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  EXPECT_EQ(delmesher::tetrahedralize(builder.surface(), all_regions()).status.code,
+            StatusCode::invalid_surface);
+  builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
+  const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
+  EXPECT_EQ(result.status.code, StatusCode::invalid_surface);
+  EXPECT_NE(result.status.message.find("bound no region"), std::string::npos);
+}
+
+TEST(AllRegions, AreNotRefinedNorRecordedYet) {
+  Builder builder;
+  builder.box({0, 0, 0}, {1, 1, 1});
+  Options options = all_regions();
+  options.surface = delmesher::SurfaceChoice::split;
+  EXPECT_EQ(delmesher::tetrahedralize(builder.surface(), options).status.code,
+            StatusCode::invalid_options);
+  options = all_regions();
+  options.want_exact = true;
+  EXPECT_EQ(delmesher::tetrahedralize(builder.surface(), options).status.code,
+            StatusCode::invalid_options);
+}
+
+// --- damage
+
+struct Told {
+  Polyhedron input;
+  MeshFile mesh;
+};
+
+// Two boxes beside each other, the second with one inside, and a sheet in the first; with names.
+const Told& honest() {
+  static const Told told = [] {
+    Builder builder;
+    builder.box({0, 0, 0}, {4, 4, 4}, 1);
+    builder.box({4, 0, 0}, {8, 4, 4}, 2);
+    builder.box({5, 1, 1}, {6, 2, 2}, 3);
+    builder.square({1, 1, 2}, {2, 1, 2}, {2, 3, 2.5}, {1, 3, 2.5}, 4);
+    const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
+    EXPECT_TRUE(result.status.ok());
+    Told made{samples::to_polyhedron(builder.surface()), samples::to_mesh(result.mesh)};
+    const std::map<int, std::string> names = {{1, "left"}, {2, "right"}, {3, "core"}};
+    for (const auto& [label, name] : names) made.input.names[{2, label}] = name;
+    for (std::size_t n = 0; n < result.regions.size(); ++n) {
+      made.mesh.names[{3, static_cast<std::int64_t>(n + 1)}] =
+          names.at(result.regions[n].label.value_or(0));
+    }
+    return made;
+  }();
+  return told;
+}
+
+void drop_tetrahedra(Told& told, const std::function<bool(std::size_t)>& goes) {
+  MeshFile kept = told.mesh;
+  kept.tetrahedra.clear();
+  kept.regions.clear();
+  for (std::size_t t = 0; t < told.mesh.tetrahedra.size(); ++t) {
+    if (goes(t)) continue;
+    kept.tetrahedra.push_back(told.mesh.tetrahedra[t]);
+    kept.regions.push_back(told.mesh.regions[t]);
+  }
+  told.mesh = kept;
+}
+
+std::int64_t region_called(const Told& told, const std::string& name) {
+  for (const auto& [key, text] : told.mesh.names) {
+    if (text == name) return key.second;
+  }
+  return 0;
+}
+
+void drop_region(Told& told, const char* name) {
+  const std::int64_t region = region_called(told, name);
+  drop_tetrahedra(told, [&](std::size_t t) { return told.mesh.regions[t] == region; });
+}
+
+using Damage = LieAbout<Told>;
+
+const Damage kDamages[] = {
+    {"an inner region left out", "parts", [](Told& t) { drop_region(t, "core"); }},
+    {"a region beside another left out", "parts", [](Told& t) { drop_region(t, "left"); }},
+    {"a tetrahedron left out", "parts",
+     [](Told& t) { drop_tetrahedra(t, [](std::size_t n) { return n == 5; }); }},
+    {"a tetrahedron turned over", "orientation",
+     [](Told& t) { std::swap(t.mesh.tetrahedra[3][0], t.mesh.tetrahedra[3][1]); }},
+    {"a second mesh on top", "complex",
+     [](Told& t) {
+       const auto first = static_cast<oracles::Index>(t.mesh.vertices.size());
+       const MeshFile copy = t.mesh;
+       t.mesh.vertices.insert(t.mesh.vertices.end(), copy.vertices.begin(), copy.vertices.end());
+       for (oracles::Tet tet : copy.tetrahedra) {
+         for (auto& v : tet) v += first;
+         t.mesh.tetrahedra.push_back(tet);
+       }
+       t.mesh.regions.insert(t.mesh.regions.end(), copy.regions.begin(), copy.regions.end());
+       t.mesh.tetrahedra.push_back(t.mesh.tetrahedra.front());
+       t.mesh.regions.push_back(t.mesh.regions.front());
+     }},
+    {"a mesh over it with vertices of its own", "parts",
+     [](Told& t) {
+       const auto first = static_cast<oracles::Index>(t.mesh.vertices.size());
+       t.mesh.vertices.insert(t.mesh.vertices.end(),
+                              {{1, 1, 0.5}, {2, 1, 0.5}, {1, 2, 0.5}, {1, 1, 1}});
+       t.mesh.tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+       t.mesh.regions.push_back(t.mesh.regions.front());
+     }},
+    {"two regions with one number", "regions",
+     [](Told& t) {
+       const std::int64_t one = region_called(t, "core"), other = region_called(t, "right");
+       std::ranges::replace(t.mesh.regions, one, other);
+     }},
+    {"a tetrahedron of another region", "regions",
+     [](Told& t) { t.mesh.regions[7] = t.mesh.regions[7] == 1 ? 2 : 1; }},
+    {"names of two regions exchanged", "regions",
+     [](Told& t) {
+       std::swap(t.mesh.names[{3, region_called(t, "core")}],
+                 t.mesh.names[{3, region_called(t, "left")}]);
+     }},
+    {"the region around called like what is in it", "regions",
+     [](Told& t) {
+       t.mesh.names[{3, region_called(t, "right")}] = "core";
+     }},
+    {"a sheet that the mesh does not have", "parts",
+     [](Told& t) {
+       const auto v = static_cast<oracles::Index>(t.input.vertices.size());
+       t.input.vertices.insert(t.input.vertices.end(), {{1, 1, 1}, {2, 1, 1}, {1, 2, 1}});
+       t.input.triangles.push_back({v, v + 1, v + 2});
+       t.input.labels.push_back(4);
+     }},
+    {"a wall that is not in the input", "regions",
+     [](Told& t) {
+       for (std::size_t n = t.input.triangles.size(); n-- > 0;) {
+         if (t.input.labels[n] != 3) continue;
+         t.input.triangles.erase(t.input.triangles.begin() + static_cast<std::ptrdiff_t>(n));
+         t.input.labels.erase(t.input.labels.begin() + static_cast<std::ptrdiff_t>(n));
+       }
+     }},
+    {"a listed triangle with the label of another", "boundary-list",
+     [](Told& t) { t.mesh.labels.front() = t.mesh.labels.front() == 2 ? 3 : 2; }},
+    {"a triangle not listed", "boundary-list",
+     [](Told& t) {
+       t.mesh.boundary.pop_back();
+       t.mesh.labels.pop_back();
+       t.mesh.facets.pop_back();
+     }},
+    {"a triangle listed twice", "boundary-list",
+     [](Told& t) {
+       t.mesh.boundary.push_back(t.mesh.boundary.front());
+       t.mesh.labels.push_back(t.mesh.labels.front());
+       t.mesh.facets.push_back(t.mesh.facets.front());
+     }},
+    {"a corner of the wall moved", "parts",
+     [](Told& t) {
+       const auto corner = std::ranges::find(t.mesh.vertices, oracles::Position{4, 0, 0});
+       (*corner)[0] = std::nextafter(4, 5);
+     }},
+    {"an input that crosses itself", "input",
+     [](Told& t) {
+       const auto v = static_cast<oracles::Index>(t.input.vertices.size());
+       t.input.vertices.insert(t.input.vertices.end(), {{9, 1, 1}, {7, 1, 1}, {8, 2, 1}});
+       t.input.triangles.push_back({v, v + 1, v + 2});
+       t.input.labels.push_back(4);
+     }},
+};
+
+class RegionDamage : public testing::TestWithParam<Damage> {};
+
+TEST_P(RegionDamage, IsCaughtByTheOracleMeantForIt) {
+  Told told = honest();
+  const VerifyReport good = verified(told.input, told.mesh);
+  ASSERT_EQ(good.verdict, oracles::Verdict::exact) << to_text(good);
+  GetParam().tell(told);
+  const VerifyReport report = verified(told.input, told.mesh);
+  const oracles::OracleReport* oracle = report.find(GetParam().oracle);
+  if (oracle == nullptr && std::string(GetParam().oracle) == "input") {
+    GTEST_SKIP() << "CGAL is not there";
+  }
+  ASSERT_NE(oracle, nullptr) << to_text(report);
+  EXPECT_FALSE(oracle->passed() || oracle->undecided) << to_text(report);
+  EXPECT_EQ(report.verdict, oracles::Verdict::broken);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RegionDamage, testing::ValuesIn(kDamages), test_name<Damage>);
+
+// What is left on the surface is not called proven.
+TEST(AllRegions, SplitTrianglesAreNotDecided) {
+  Told told = honest();
+  // The front face of the first box in one more triangle than the input has.
+  const auto on = [](const oracles::Position& p) { return p == oracles::Position{0, 0, 0}; };
+  const auto corner = std::ranges::find_if(told.input.vertices, on);
+  ASSERT_NE(corner, told.input.vertices.end());
+  // The input's triangles at an edge become two larger ones: the mesh has a vertex on them.
+  Builder coarse, fine;
+  coarse.box({0, 0, 0}, {2, 2, 2});
+  fine.box({0, 0, 0}, {2, 2, 2});
+  Surface split = fine.surface();
+  const auto middle = static_cast<std::uint32_t>(split.vertices.size());
+  split.vertices.push_back({1, 0, 0});
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto is_end = [&](std::uint32_t v) {
+    return split.vertices[v][1] == 0 && split.vertices[v][2] == 0 && v != middle;
+  };
+  for (const auto& t : split.triangles) {
+    const auto first = std::ranges::find_if(t, is_end) - t.begin();
+    const std::uint32_t a = first < 3 ? t[static_cast<std::size_t>(first)] : 0;
+    const auto ends = std::ranges::count_if(t, is_end);
+    if (ends < 2) {
+      triangles.push_back(t);
+      continue;
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (!is_end(t[k])) continue;
+      std::array<std::uint32_t, 3> half = t;
+      half[k] = middle;
+      triangles.push_back(half);
+    }
+    EXPECT_TRUE(is_end(a));
+  }
+  split.triangles = triangles;
+  split.labels.clear();
+  const Result result = delmesher::tetrahedralize(split, all_regions());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const VerifyReport report =
+      verified(samples::to_polyhedron(coarse.surface()), samples::to_mesh(result.mesh));
+  EXPECT_EQ(report.verdict, oracles::Verdict::undecided) << to_text(report);
+  ASSERT_EQ(report.unproven.size(), 1U);
+  EXPECT_EQ(report.unproven[0], "--regions all (2 triangles are split)");
+}
+
+}  // namespace
+}  // namespace tetproof
