@@ -35,6 +35,7 @@ FILES = {
     "torn.stl": stl(CUBE[1:]),
     "rotated.stl": stl(CUBE, lambda x, y, z: (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z / 3)),
     "air.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (4 * x - 2, 4 * y - 2, 4 * z - 2)),
+    "assembly.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (x + 1, y, z)),
     "outline.txt": "0 0\n4 0\n1 1\n0 4\n",
     "names.txt": "1 wall\n",
     "sizes.txt": "0 0 0 0.2\n",
