@@ -228,7 +228,7 @@ class Read(unittest.TestCase):
             out = path("lost." + extension)
             done = subprocess.run([DELMESHER, "improve", path("parts.msh"), "-o", out], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
-            warned = [what for what in ("regions", "labels", "names") if "it has several %s, of which %s can tell" % (what, out) in done.stderr]
+            warned = [what for what in ("regions", "labels", "names") if "%s has no place for the %s, which are lost" % (out, what) in done.stderr]
             with self.subTest(extension):
                 with open(out.replace(".node", ".face"), "rb") as file:
                     text = file.read().decode("latin-1")
