@@ -24,8 +24,9 @@ void add_row(Table& table, const std::string& label, const std::vector<Rows>& co
 void add_counts(Table& table, const std::vector<Rows>& columns, Part part) {
   for (const auto& [label, column] : {std::pair("Avg. # vertices", &MeshColumns::vertices),
                                       std::pair("Avg. # tetrahedra", &MeshColumns::tetrahedra)}) {
+    const auto value = of(part, column);
     add_row(table, label, columns, [&](const Rows& rows) {
-      const std::string number = fixed(mean(values_of(rows, of(part, column))), 0);
+      const std::string number = fixed(mean(values_of(rows, value)), 0);
       return number + (part == &RunRow::mesh ? region_mark(rows) : "");
     });
   }
