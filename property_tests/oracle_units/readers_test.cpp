@@ -29,6 +29,14 @@ using namespace oracles;  // NOLINT
 using delmesher::io::packed_by_zlib;
 using delmesher::io::Wrapping;
 
+// The smallest size may be in the middle of an edge.
+TEST(SizeFields, LimitAnEdgeWhereItIsNearest) {
+  const EdgeSizes sizes({{{0, 0, 0}, 0.125}}, 0.25);
+  EXPECT_DOUBLE_EQ(sizes.excess({-1, 0, 0}, {1, 0, 0}), 2 / 0.125);
+  EXPECT_DOUBLE_EQ(sizes.excess({-1, 1, 0}, {3, 1, 0}), 4 / 0.375);
+  EXPECT_DOUBLE_EQ(sizes.excess({1, 0, 0}, {3, 0, 0}), 2 / 0.375);
+}
+
 // What `mesh` takes as a size field, the verification takes, with the same sources.
 TEST(SizeFields, AreReadAsTheMesherReadsThem) {
   using Sources = std::vector<std::array<double, 4>>;
