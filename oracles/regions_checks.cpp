@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "oracles/base/vectors.h"
 #include "oracles/file_step.h"
 #include "oracles/mesh/angles.h"
 #include "oracles/mesh/parts.h"
@@ -29,7 +30,7 @@ void RegionsStep::measure_input() {
       for (const double x : input_.vertices[v]) largest = std::max(largest, std::fabs(x));
     }
   }
-  ulp_ = std::ldexp(1.0, std::ilogb(largest) - 52);
+  ulp_ = unit_in_last_place(largest);
   diagonal_ = diagonal_of(input_);
 }
 

@@ -56,14 +56,11 @@ std::vector<FacetId> FacetSet::facets(const Element& element) const {
 
 std::vector<FacetId> FacetSet::facets_at(VertexId v) const {
   std::vector<FacetId> result;
-  const std::uint32_t start = topology_.vertex_half_edge[v];
-  if (start == kNone) return result;
-  std::uint32_t h = start;
-  do {
+  topology_.for_each_outgoing(v, [&](std::uint32_t h) {
     const FacetId f = topology_.facet_of_half_edge(h);
     if (kept_[f] && (result.empty() || result.back() != f)) result.push_back(f);
-    h = topology_.opposite[SurfaceTopology::previous(h)];
-  } while (h != start);
+    return true;
+  });
   sort_unique(result);
   return result;
 }

@@ -138,13 +138,10 @@ void KeptSurface::find_corners() {
 
 std::vector<std::uint32_t> KeptSurface::live_half_edges(VertexId v) const {
   std::vector<std::uint32_t> result;
-  const std::uint32_t start = topology_.vertex_half_edge[v];
-  if (start == kNone) return result;
-  std::uint32_t h = start;
-  do {
+  topology_.for_each_outgoing(v, [&](std::uint32_t h) {
     if (edge_is_live_[topology_.edge_of[h]]) result.push_back(h);
-    h = topology_.opposite[SurfaceTopology::previous(h)];
-  } while (h != start);
+    return true;
+  });
   return result;
 }
 

@@ -23,8 +23,8 @@ bool Relocation::run(VertexId v, bool fine) {
   state_.mesh.star(v, star_);
   tilings_.clear();
   faces_.clear();
-  if (!find_wedges() || !std::ranges::all_of(wedges_, [&](Wedge& w) { return fill(w); }) ||
-      !place_all(fine)) {
+  find_wedges();
+  if (!std::ranges::all_of(wedges_, [&](Wedge& w) { return fill(w); }) || !place_all(fine)) {
     return false;
   }
   std::vector<CreatedTet> created;
@@ -35,8 +35,8 @@ bool Relocation::run(VertexId v, bool fine) {
   return true;
 }
 
-// The parts into which the surface divides the star. False if there is no surface.
-bool Relocation::find_wedges() {
+// The parts into which the surface divides the star.
+void Relocation::find_wedges() {
   const MeshTopology& mesh = state_.mesh;
   std::vector<std::uint8_t> seen(star_.size(), 0);
   std::vector<std::pair<TetId, std::size_t>> sorted;
@@ -65,7 +65,6 @@ bool Relocation::find_wedges() {
     std::ranges::sort(queue);  // in the order of the star
     for (const std::size_t n : queue) wedge.star.push_back(star_[n]);
   }
-  return !wedges_.empty();
 }
 
 // Finds the tetrahedra that replace those of the wedge, which is between two facets.

@@ -41,7 +41,7 @@ class Relocation {
     std::vector<std::array<VertexId, 3>> triangles;  // seen from outside the wedge that was first
   };
 
-  bool find_wedges();
+  void find_wedges();
   bool fill(Wedge& wedge);
   FacetId facet_of(const Face& face) const { return state_.mesh.facet(face.tet, face.face); }
   static std::vector<VertexId> outline(std::span<const Face> fan);

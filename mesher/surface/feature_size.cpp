@@ -197,12 +197,10 @@ class ClosestElements {
 
   void collect_facets(VertexId v) {
     facets_.clear();
-    const std::uint32_t first = topology_.vertex_half_edge[v];
-    std::uint32_t h = first;
-    do {
+    topology_.for_each_outgoing(v, [&](std::uint32_t h) {
       facets_.push_back(topology_.facet_of_half_edge(h));
-      h = topology_.opposite[SurfaceTopology::previous(h)];
-    } while (h != first);
+      return true;
+    });
     std::sort(facets_.begin(), facets_.end());
   }
 

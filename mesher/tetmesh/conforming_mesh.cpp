@@ -10,6 +10,7 @@
 namespace delmesher::tetmesh {
 
 void keep_inside(ConformingMesh& mesh) {
+  if (std::ranges::find(mesh.region, kOutside) == mesh.region.end()) return;
   std::size_t kept = 0;
   for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
     if (mesh.region[n] == kOutside) continue;

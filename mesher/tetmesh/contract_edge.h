@@ -69,9 +69,9 @@ class ContractEdge {
     const bool on_hull = find_edges_on_surface();
     if (edges_.empty() && on_hull) targets_.clear();
     if (edges_.empty()) return;
-    if (keep_rim()) return;
     const bool in_facet = std::ranges::all_of(
         edges_, [&](const auto& edge) { return edge.second == edges_.front().second; });
+    if (in_facet && keep_rim()) return;
     std::erase_if(targets_, [&](VertexId w) { return !stays_on_surface(in_facet, w); });
   }
 
