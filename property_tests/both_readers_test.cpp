@@ -15,7 +15,7 @@
 #include "oracles/files/surface_file.h"
 #include "oracles/plane/file.h"
 
-namespace tetproof {
+namespace tetproof::both_readers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ TEST(BothReaders, AgreeOnWhatEditorsMakeOfTexts) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::both_readers_test

@@ -8,7 +8,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::budget_test {
 namespace {
 
 using delmesher::Options;
@@ -212,4 +212,4 @@ TEST(Budget, PredictionDoesNotDependOnThePlace) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::budget_test

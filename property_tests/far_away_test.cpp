@@ -10,7 +10,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::far_away_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -197,4 +197,4 @@ TEST(FarAway, DefectsAreToldInGivenCoordinates) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::far_away_test

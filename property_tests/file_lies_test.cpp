@@ -20,7 +20,7 @@
 
 #include "oracles/verify_command.h"
 
-namespace tetproof {
+namespace tetproof::file_lies_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -688,4 +688,4 @@ TEST(FileLies, CutShortAreRefused) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::file_lies_test

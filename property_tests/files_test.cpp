@@ -28,7 +28,7 @@
 #include "property_tests/little_memory.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -674,4 +674,4 @@ TEST_F(Files, VerifyingWithoutEnoughMemoryIsFive) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::files_test

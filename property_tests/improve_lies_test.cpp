@@ -23,7 +23,7 @@
 #include "oracles/mesh/angles.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::improve_lies_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -675,4 +675,4 @@ TEST(ImproveLies, ScalesDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::improve_lies_test

@@ -18,7 +18,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::improve_mesh_test {
 namespace {
 
 using delmesher::ImproveOptions;
@@ -184,9 +184,9 @@ TetMesh unimproved(const delmesher::Surface& surface, delmesher::Region region) 
   return std::move(result.mesh);
 }
 
-class Models : public testing::TestWithParam<NamedSurface> {};
+class OurModels : public testing::TestWithParam<NamedSurface> {};
 
-TEST_P(Models, OfOursAreKeptAndNotWorse) {
+TEST_P(OurModels, OfOursAreKeptAndNotWorse) {
   for (const auto region : {delmesher::Region::interior, delmesher::Region::hull}) {
     const TetMesh mesh = unimproved(GetParam().surface, region);
     const Law law(mesh);
@@ -199,7 +199,7 @@ TEST_P(Models, OfOursAreKeptAndNotWorse) {
 }
 
 // Parts of a solid as if they were different materials, told apart by their middles.
-TEST_P(Models, KeepTheirRegions) {
+TEST_P(OurModels, KeepTheirRegions) {
   TetMesh mesh = unimproved(GetParam().surface, delmesher::Region::interior);
   double mean = 0;
   for (const Point& p : mesh.vertices) mean += p[0] / static_cast<double>(mesh.vertices.size());
@@ -214,7 +214,7 @@ TEST_P(Models, KeepTheirRegions) {
             static_cast<std::ptrdiff_t>(law.result.mesh.tetrahedra.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(ImproveMesh, Models, testing::ValuesIn(samples::surfaces(kSeed)),
+INSTANTIATE_TEST_SUITE_P(ImproveMesh, OurModels, testing::ValuesIn(samples::surfaces(kSeed)),
                          [](const auto& model) { return model.param.name; });
 
 const TetMesh& cube() {
@@ -437,4 +437,4 @@ TEST(ImproveMesh, OfGmshAreKeptAndNotWorse) {
 #endif
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::improve_mesh_test

@@ -11,7 +11,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::improvement_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -57,10 +57,10 @@ const Told& honest() {
   return told;
 }
 
-class Models : public testing::TestWithParam<NamedSurface> {};
+class ImprovedModels : public testing::TestWithParam<NamedSurface> {};
 
 // Both runs are the same up to the improvement: slivers are not treated in either.
-TEST_P(Models, AreNeverWorseThanWithoutIt) {
+TEST_P(ImprovedModels, AreNeverWorseThanWithoutIt) {
   for (const auto region : {delmesher::Region::interior, delmesher::Region::hull}) {
     Options options;
     options.surface = delmesher::SurfaceChoice::split;
@@ -81,7 +81,7 @@ TEST_P(Models, AreNeverWorseThanWithoutIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Improvement, Models, testing::ValuesIn(samples::surfaces(kSeed)),
+INSTANTIATE_TEST_SUITE_P(Improvement, ImprovedModels, testing::ValuesIn(samples::surfaces(kSeed)),
                          [](const auto& tested) { return tested.param.name; });
 
 // A polyhedron inscribed in the unit sphere: no sharp corner or edge.
@@ -474,4 +474,4 @@ TEST(Improvement, MakesNoEdgeLongerThanPromised) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::improvement_test

@@ -11,7 +11,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::kept_test {
 namespace {
 
 using delmesher::Options;
@@ -304,4 +304,4 @@ TEST(AutomaticSurface, IsNoExcuseForAMissingRefinement) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::kept_test

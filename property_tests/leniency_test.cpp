@@ -11,7 +11,7 @@
 #include <fstream>
 #include <string>
 
-namespace tetproof {
+namespace tetproof::leniency_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST(Leniency, WhatACampaignBeginsWithIsNotCounted) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::leniency_test

@@ -12,7 +12,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::metamorphic_test {
 namespace {
 
 using delmesher::Options;
@@ -334,4 +334,4 @@ TEST(MetamorphicVolume, RigidMotionsKeepTheVolumeAndACopyDoublesIt) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::metamorphic_test

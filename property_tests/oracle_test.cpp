@@ -9,7 +9,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::oracle_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -289,4 +289,4 @@ TEST(RefinedStage, AcceptsAndChecksARecord) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::oracle_test

@@ -13,7 +13,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::pipeline_test {
 namespace {
 
 using delmesher::Options;
@@ -541,4 +541,4 @@ TEST(ExtremeSizes, AreALimitWhereNumbersDoNotFit) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::pipeline_test

@@ -13,7 +13,7 @@
 #include "oracles/record/cover.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::places_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -119,4 +119,4 @@ TEST(Places, OfARunAreThoseOfEachTetrahedronAlone) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::places_test

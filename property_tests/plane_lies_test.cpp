@@ -12,7 +12,7 @@
 #include "property_tests/plane_lies/told.h"
 #include "property_tests/score_table.h"
 
-namespace tetproof {
+namespace tetproof::plane_lies_test {
 namespace {
 
 using namespace plane_lies;  // NOLINT
@@ -277,4 +277,4 @@ TEST(PlaneLies, AboutSidesWithinARectangleFarAway) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::plane_lies_test

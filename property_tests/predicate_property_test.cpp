@@ -13,7 +13,7 @@
 #include "oracles/cgal/kernel_opinion.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::predicate_property_test {
 namespace {
 
 using delmesher::base::VertexId;
@@ -194,4 +194,4 @@ TEST(AppendixA, TheFiltersOfThePaperAreNeverWrong) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::predicate_property_test

@@ -13,13 +13,13 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::real_models_test {
 namespace {
 
 namespace fs = std::filesystem;
 using oracles::VerifyReport;
 
-constexpr bool kInstalled = std::string_view(CGAL_DATA) != "";
+constexpr bool kInstalled = std::string_view(REAL_MODELS) != "";
 
 // Polygons that are not all triangles, acute corners, holes, handles, round shapes, scans; small
 // enough for every run.
@@ -54,7 +54,7 @@ fs::path extracted(const std::string& model) {
   fs::create_directories(folder);
   const std::string member = "data/meshes/" + model + ".off";
   const std::string command =
-      "tar -xzf " CGAL_DATA " -C '" + folder.string() + "' '" + member + "'";
+      "tar -xzf " REAL_MODELS " -C '" + folder.string() + "' '" + member + "'";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   return folder / member;
 }
@@ -122,4 +122,4 @@ TEST_P(RealModels, KeepEveryPromiseWithThePapersSettings) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::real_models_test

@@ -17,7 +17,7 @@
 #include "property_tests/lie.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::regions_test {
 namespace {
 
 using delmesher::Options;
@@ -507,4 +507,4 @@ TEST(AllRegions, SplitTrianglesAreNotDecided) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::regions_test

@@ -15,7 +15,7 @@
 #include "oracles/cgal/second_kernel.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::second_kernel_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -339,4 +339,4 @@ TEST_P(SecondKernel, CatchesEveryTetrahedronOnTheWrongSide) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::second_kernel_test

@@ -21,7 +21,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::second_opinion_test {
 namespace {
 
 using namespace oracles;  // NOLINT
@@ -344,4 +344,4 @@ TEST(MeshesByTetgen, OfValidSurfacesPass) {
 #endif
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::second_opinion_test

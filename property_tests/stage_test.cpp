@@ -17,7 +17,7 @@
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
-namespace tetproof {
+namespace tetproof::stage_test {
 namespace {
 
 using delmesher::Options;
@@ -396,4 +396,4 @@ TEST(Figure8, RefinementEndsAndCountsExplodeAsTheGapShrinks) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::stage_test

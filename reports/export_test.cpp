@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace tetproof {
+namespace tetproof::export_test {
 namespace {
 
 RunRow sample(const std::string& model, const std::string& mesher, Disposition disposition) {
@@ -139,4 +139,4 @@ TEST(Export, FilesAreToldApartByTheirContent) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::export_test

@@ -15,7 +15,7 @@
 
 #include "reports/export.h"
 
-namespace tetproof {
+namespace tetproof::gate_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -666,4 +666,4 @@ TEST(Gate, WhatIsMissingIsFoundUnlessAllowed) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::gate_test

@@ -5,7 +5,7 @@
 
 #include "reports/made_up_runs.h"
 
-namespace tetproof {
+namespace tetproof::history_test {
 namespace {
 
 HistoryStep step(const std::string& name, const std::vector<Made>& runs) {
@@ -85,4 +85,4 @@ TEST(History, AMesherThatACampaignLacksIsPassedOver) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::history_test

@@ -12,7 +12,7 @@
 #include "reports/export.h"
 #include "reports/made_up_runs.h"
 
-namespace tetproof {
+namespace tetproof::league_page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ TEST_F(LeaguePage, WhatCannotBeReadIsSaidAndNothingIsWritten) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::league_page_test

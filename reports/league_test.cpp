@@ -8,7 +8,7 @@
 #include "reports/html.h"
 #include "reports/made_up_runs.h"
 
-namespace tetproof {
+namespace tetproof::league_test {
 namespace {
 
 class League : public testing::Test {
@@ -171,4 +171,4 @@ TEST_F(League, WrongResultsComeWithTheOraclesSentence) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::league_test

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-namespace tetproof {
+namespace tetproof::mesh_quality_test {
 namespace {
 
 using oracles::MeshFile;
@@ -243,4 +243,4 @@ TEST(MeshQuality, EmptyMesh) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::mesh_quality_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tetproof {
+namespace tetproof::picture_test {
 namespace {
 
 using oracles::Index;
@@ -124,4 +124,4 @@ TEST_F(Corner, APictureIsSmall) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::picture_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tetproof {
+namespace tetproof::poisson_test {
 namespace {
 
 using oracles::Index;
@@ -79,4 +79,4 @@ TEST(Poisson, OfNoUnknownsThereIsNothingToSolve) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::poisson_test

@@ -20,7 +20,7 @@
 #include "reports/series_style.h"
 #include "reports/tables.h"
 
-namespace tetproof {
+namespace tetproof::report_test {
 namespace {
 
 // The campaign with the measured texts that figures and pages read.
@@ -562,4 +562,4 @@ TEST_F(ReportFolder, AnEmptyCampaignGivesAReport) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::report_test

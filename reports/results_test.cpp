@@ -10,7 +10,7 @@
 #include <fstream>
 #include <memory>
 
-namespace tetproof {
+namespace tetproof::results_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -434,4 +434,4 @@ TEST(MeshColumns, AbsentOrBrokenJson) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::results_test

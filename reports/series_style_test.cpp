@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-namespace tetproof {
+namespace tetproof::series_style_test {
 namespace {
 
 using Triple = std::array<double, 3>;
@@ -111,4 +111,4 @@ TEST(SeriesStyle, NoStyleComesTwice) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::series_style_test

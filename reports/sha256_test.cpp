@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace tetproof {
+namespace tetproof::sha256_test {
 namespace {
 
 // The vectors of FIPS 180-4's examples.
@@ -28,4 +28,4 @@ TEST(Sha256, FilesAndMissingFiles) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::sha256_test

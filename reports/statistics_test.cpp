@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tetproof {
+namespace tetproof::statistics_test {
 namespace {
 
 TEST(Statistics, MeanMedianQuantile) {
@@ -65,4 +65,4 @@ TEST(Statistics, Holm) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::statistics_test

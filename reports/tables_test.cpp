@@ -15,7 +15,7 @@
 #include "reports/measures.h"
 #include "reports/report.h"
 
-namespace tetproof {
+namespace tetproof::tables_test {
 namespace {
 
 TEST(Tables, Table1) {
@@ -472,4 +472,4 @@ TEST(Report, FilesAreWritten) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::tables_test

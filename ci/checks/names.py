@@ -74,9 +74,32 @@ def flags_of(entry):
 
 @functools.cache
 def local_names(path):
+    """{name: pairs of a namespace in which it stands, followed by two colons, and what tells it from others there}. An alias may
+    stand in several files."""
+    names, namespace = {}, ""
     with open(path, encoding="utf-8") as stream:
-        found = [DEFINED.match(line.rstrip()) for line in stream]
-    return {next(name for name in match.groups() if name).lower() for match in found if match}
+        for line in stream:
+            if opened := re.match(r"namespace ([\w:]+) \{", line):
+                namespace = opened[1] + "::"
+            elif line.startswith("}  // namespace " + namespace[:-2]) and namespace:
+                namespace = ""
+            elif match := DEFINED.match(line.rstrip()):
+                names.setdefault(next(name for name in match.groups() if name).lower(), set()).add((namespace, line if match[1] else path))
+    return names
+
+
+def clash(some, others):
+    """Whether a name stands in both, in one namespace or in one within the other."""
+    return any(what != other and (a.startswith(b) or b.startswith(a))
+               for name in some.keys() & others.keys() for a, what in some[name] for b, other in others[name])
+
+
+def united(all_names):
+    names = {}
+    for some in all_names:
+        for name, namespaces in some.items():
+            names[name] = names.get(name, set()) | namespaces
+    return names
 
 
 @functools.cache
@@ -89,24 +112,24 @@ def headers_of(path):
 
 
 def names_in(headers):
-    return set().union(*map(local_names, headers))
+    return united(map(local_names, headers))
 
 
 class Group:
     """Files that are read together: no local name in common, none that a header of others has, no macro with two values."""
 
     def __init__(self):
-        self.files, self.names, self.headers, self.defined, self.others = [], set(), set(), {}, []
+        self.files, self.names, self.headers, self.defined, self.others = [], {}, set(), {}, []
 
     def takes(self, file, flags):
         names, headers = local_names(file), headers_of(file)
         return len(self.files) < TOGETHER and all(
             self.defined.get(name, flag) == flag for name, flag in flags[0].items()) and not (
-                self.names & (names | names_in(headers - self.headers)) or names & names_in(self.headers - headers))
+                clash(self.names, united([names, names_in(headers - self.headers)])) or clash(names, names_in(self.headers - headers)))
 
     def add(self, file, flags):
         self.files.append(file)
-        self.names |= local_names(file)
+        self.names = united([self.names, local_names(file)])
         self.headers |= headers_of(file)
         self.defined |= flags[0]
         self.others += [flag for flag in flags[1] if flag not in self.others]

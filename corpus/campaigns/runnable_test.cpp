@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace tetproof {
+namespace tetproof::runnable_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ TEST(Runnable, WrongCallsOfOurPrograms) {
 }
 
 }  // namespace
-}  // namespace tetproof
+}  // namespace tetproof::runnable_test

@@ -14,7 +14,7 @@
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/surface/validity.h"
 
-namespace delmesher::chamfer {
+namespace delmesher::chamfer::chamfer_test {
 namespace {
 
 using plc_angles::measure;
@@ -347,4 +347,4 @@ TEST(Chamfer, ParametersAreShort) {
 }
 
 }  // namespace
-}  // namespace delmesher::chamfer
+}  // namespace delmesher::chamfer::chamfer_test

@@ -13,7 +13,7 @@
 #include "mesher/geometry/vector.h"
 #include "mesher/surface/feature_size.h"
 
-namespace delmesher::chamfer {
+namespace delmesher::chamfer::filter_test {
 namespace {
 
 using test_polyhedra::Sample;
@@ -396,4 +396,4 @@ TEST(Closest, GapsAreMeasuredInTheirOwnWidth) {
 }
 
 }  // namespace
-}  // namespace delmesher::chamfer
+}  // namespace delmesher::chamfer::filter_test

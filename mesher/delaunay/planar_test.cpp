@@ -8,7 +8,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher::delaunay {
+namespace delmesher::delaunay::planar_test {
 namespace {
 
 // Points of the plane through three explicit points, and an explicit point above it.
@@ -238,4 +238,4 @@ TEST_F(PlanarTest, AgreesWithThePerturbedInsphere) {
 }
 
 }  // namespace
-}  // namespace delmesher::delaunay
+}  // namespace delmesher::delaunay::planar_test

@@ -9,7 +9,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/rational_reference.h"
 
-namespace delmesher::geometry {
+namespace delmesher::geometry::placement_test {
 namespace {
 
 using families::Random;
@@ -364,4 +364,4 @@ TEST(PlaceOnTriangle, ScalesByTheDifferencesOfCorners) {
 }
 
 }  // namespace
-}  // namespace delmesher::geometry
+}  // namespace delmesher::geometry::placement_test

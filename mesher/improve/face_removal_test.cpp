@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace delmesher::improve {
+namespace delmesher::improve::face_removal_test {
 namespace {
 
 // Flat tetrahedra above and below the triangles of a pentagon: vertices 0 to 4, then the one above
@@ -95,4 +95,4 @@ TEST(FaceRemoval, MakesNoLongEdge) {
 }
 
 }  // namespace
-}  // namespace delmesher::improve
+}  // namespace delmesher::improve::face_removal_test

@@ -7,7 +7,7 @@
 
 #include "mesher/improve/test_meshed_model.h"
 
-namespace delmesher::improve {
+namespace delmesher::improve::filling_test {
 namespace {
 
 using namespace cdt::test_models;
@@ -68,4 +68,4 @@ TEST(Filling, Ends) {
 }
 
 }  // namespace
-}  // namespace delmesher::improve
+}  // namespace delmesher::improve::filling_test

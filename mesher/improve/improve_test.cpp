@@ -13,7 +13,7 @@
 #include "mesher/improve/quality.h"
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher::improve {
+namespace delmesher::improve::improve_test {
 
 namespace rational = cdt::rational;
 
@@ -316,4 +316,4 @@ TEST(Improve, EndsWhenItIsCancelled) {
 }
 
 }  // namespace
-}  // namespace delmesher::improve
+}  // namespace delmesher::improve::improve_test

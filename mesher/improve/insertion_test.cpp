@@ -8,7 +8,7 @@
 
 #include "mesher/improve/test_meshed_model.h"
 
-namespace delmesher::improve {
+namespace delmesher::improve::insertion_test {
 namespace {
 
 using namespace cdt::test_models;
@@ -68,4 +68,4 @@ TEST(Insertion, PutsPointsOnTheSurfaceAndKeepsIt) {
 }
 
 }  // namespace
-}  // namespace delmesher::improve
+}  // namespace delmesher::improve::insertion_test

@@ -6,7 +6,7 @@
 
 #include "mesher/improve/test_meshed_model.h"
 
-namespace delmesher::improve {
+namespace delmesher::improve::relocation_test {
 namespace {
 
 using namespace cdt::test_models;
@@ -97,4 +97,4 @@ TEST(Relocation, IsForPointsOnEdgesAlone) {
 }
 
 }  // namespace
-}  // namespace delmesher::improve
+}  // namespace delmesher::improve::relocation_test

@@ -10,7 +10,7 @@
 #include "mesher/io/test_archives.h"
 #include "mesher/io/zip.h"
 
-namespace delmesher::io {
+namespace delmesher::io::archives_test {
 namespace {
 
 std::string error_of(const std::string& bytes, const std::string& name) {
@@ -360,4 +360,4 @@ TEST(ThreeMf, DamagedPackagesAreRefused) {
 }
 
 }  // namespace
-}  // namespace delmesher::io
+}  // namespace delmesher::io::archives_test

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <set>
 
-namespace delmesher::io {
+namespace delmesher::io::read_mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -434,4 +434,4 @@ TEST_F(Files, ReadingStopsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace delmesher::io
+}  // namespace delmesher::io::read_mesh_test

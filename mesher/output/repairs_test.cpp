@@ -9,7 +9,7 @@
 #include "mesher/output/local_operations.h"
 #include "mesher/output/vertex_moves.h"
 
-namespace delmesher::output {
+namespace delmesher::output::repairs_test {
 namespace {
 
 struct Scene {
@@ -413,4 +413,4 @@ TEST(LocalOperations, MayAskForExactPositions) {
 }
 
 }  // namespace
-}  // namespace delmesher::output
+}  // namespace delmesher::output::repairs_test

@@ -14,7 +14,7 @@
 #include "mesher/output/rounded_mesh.h"
 #include "mesher/output/vertex_moves.h"
 
-namespace delmesher::output {
+namespace delmesher::output::rounding_test {
 namespace {
 
 using Face = std::array<std::uint32_t, 3>;
@@ -498,4 +498,4 @@ TEST(Rounding, EmptyMesh) {
 }
 
 }  // namespace
-}  // namespace delmesher::output
+}  // namespace delmesher::output::rounding_test

@@ -11,7 +11,7 @@
 
 #include "mesher/output/cosines.h"
 
-namespace delmesher::output {
+namespace delmesher::output::statistics_test {
 namespace {
 
 using Points = std::vector<std::array<double, 3>>;
@@ -416,4 +416,4 @@ TEST(Cosines, ABatchKnowsItsOrdinaryTetrahedra) {
 }
 
 }  // namespace
-}  // namespace delmesher::output
+}  // namespace delmesher::output::statistics_test

@@ -7,7 +7,7 @@
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 
-namespace delmesher::output {
+namespace delmesher::output::thinning_test {
 
 namespace rational = cdt::rational;
 
@@ -157,4 +157,4 @@ TEST(Thinning, ReachesAsFarAsItIsTold) {
 }
 
 }  // namespace
-}  // namespace delmesher::output
+}  // namespace delmesher::output::thinning_test

@@ -18,7 +18,7 @@
 #include "mesher/surface/topology.h"
 #include "mesher/surface/validity.h"
 
-namespace delmesher::planar {
+namespace delmesher::planar::planarized_surface_test {
 namespace {
 
 using namespace surface::test_surfaces;  // NOLINT(google-build-using-namespace)
@@ -782,4 +782,4 @@ TEST(PlanarGroups, EveryStepOfThePlanesCanBeStopped) {
 }
 
 }  // namespace
-}  // namespace delmesher::planar
+}  // namespace delmesher::planar::planarized_surface_test

@@ -7,7 +7,7 @@
 
 #include "mesher/plane/test_graphs.h"
 
-namespace delmesher::plane {
+namespace delmesher::plane::chamfer_test {
 namespace {
 
 using namespace test_graphs;
@@ -80,4 +80,4 @@ TEST(PlaneChamfer, TinyCornersAreDecidedExactly) {
 }
 
 }  // namespace
-}  // namespace delmesher::plane
+}  // namespace delmesher::plane::chamfer_test

@@ -13,7 +13,7 @@
 
 #include "mesher/predicates/filter.h"
 
-namespace delmesher::predicates {
+namespace delmesher::predicates::filter_bounds_test {
 namespace {
 
 using Row = std::array<double, 3>;
@@ -240,4 +240,4 @@ TEST(FilterBounds, Underflow) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::predicates::filter_bounds_test

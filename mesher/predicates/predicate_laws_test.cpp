@@ -12,7 +12,7 @@
 #include "mesher/predicates/rational_reference.h"
 #include "mesher/predicates/stages.h"
 
-namespace delmesher::predicates {
+namespace delmesher::predicates::predicate_laws_test {
 namespace {
 
 using families::Random;
@@ -508,4 +508,4 @@ TEST(Counters, EveryStageDecides) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::predicates::predicate_laws_test

@@ -13,7 +13,7 @@
 #include "mesher/predicates/rational_reference.h"
 #include "mesher/predicates/stages.h"
 
-namespace delmesher::predicates {
+namespace delmesher::predicates::predicates_test {
 namespace {
 
 using families::Family;
@@ -254,4 +254,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::predicates::predicates_test

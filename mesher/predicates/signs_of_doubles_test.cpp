@@ -9,7 +9,7 @@
 
 #include "mesher/predicates/rational_reference.h"
 
-namespace delmesher::predicates {
+namespace delmesher::predicates::signs_of_doubles_test {
 namespace {
 
 using Vec2 = std::array<double, 2>;
@@ -150,4 +150,4 @@ TEST(SignsOfDoubles, AgreeWithRationalsInThePlane) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::predicates::signs_of_doubles_test

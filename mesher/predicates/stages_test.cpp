@@ -9,7 +9,7 @@
 #include "mesher/predicates/point_families.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher::predicates {
+namespace delmesher::predicates::stages_test {
 namespace {
 
 using families::Random;
@@ -183,4 +183,4 @@ TEST(PointStore, DifferencesUseWhatDoublesLeaveOver) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::predicates::stages_test

@@ -13,7 +13,7 @@
 
 #include "mesher/delmesher.h"
 
-namespace delmesher::surface {
+namespace delmesher::surface::repair_test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -403,4 +403,4 @@ TEST(WeldHint, NamesTheDistanceThatCloses) {
 }
 
 }  // namespace
-}  // namespace delmesher::surface
+}  // namespace delmesher::surface::repair_test
