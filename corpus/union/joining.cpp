@@ -28,6 +28,7 @@ class Joiner {
  public:
   Joiner(Soup& soup, double reach, Poll& poll) : soup_(soup), reach_(reach), poll_(poll) {}
   double run(const std::vector<MeetingPair>& pairs);
+  double run_on_needles(const std::vector<MeetingPair>& themselves);
 
  private:
   enum class Which { exactly_on, near };
@@ -150,10 +151,38 @@ double Joiner::run(const std::vector<MeetingPair>& pairs) {
   return farthest_;
 }
 
+double Joiner::run_on_needles(const std::vector<MeetingPair>& themselves) {
+  join_vertices(themselves);
+  bend(themselves, Which::near);
+  soup_ = soup_of(surface_of(soup_));
+  return farthest_;
+}
+
 }  // namespace
 
 double join_near(Soup& soup, const std::vector<MeetingPair>& pairs, double reach, Poll& poll) {
   return Joiner(soup, reach, poll).run(pairs);
+}
+
+bool is_needle(const Soup& soup, const Triangle& corners, double height) {
+  std::array<Position, 3> sides;
+  double unit = 0;  // or squares of tiny ones would vanish
+  for (std::size_t k = 0; k < 3; ++k) {
+    sides[k] = minus(soup.vertices[corners[(k + 1) % 3]], soup.vertices[corners[k]]);
+    unit = std::max(unit, oracles::largest_component(sides[k]));
+  }
+  double longest = 0;
+  for (Position& side : sides) {
+    for (double& x : side) x /= unit;
+    longest = std::max(longest, oracles::length(side));
+  }
+  return unit * oracles::length(oracles::cross(sides[0], sides[1])) <= height * longest;
+}
+
+double remove_needles(Soup& soup, const std::vector<Index>& needles, double reach, Poll& poll) {
+  std::vector<MeetingPair> themselves;
+  for (const Index t : needles) themselves.push_back({t, t, true});
+  return Joiner(soup, reach, poll).run_on_needles(themselves);
 }
 
 }  // namespace tetproof::unite

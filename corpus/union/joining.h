@@ -14,4 +14,11 @@ namespace tetproof::unite {
 // near. What closed up still does. Returns how far the surface moved at most.
 double join_near(Soup& soup, const std::vector<MeetingPair>& pairs, double reach, Poll& poll);
 
+// Is the triangle no higher than this, over its longest side? In doubles.
+bool is_needle(const Soup& soup, const Triangle& corners, double height);
+
+// Such triangles go: corners at most `reach` from each other become one, the first of them, and a
+// long side goes through the corner across. As above, what closed up still does.
+double remove_needles(Soup& soup, const std::vector<Index>& needles, double reach, Poll& poll);
+
 }  // namespace tetproof::unite

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -85,7 +86,9 @@ class Uniter {
   }
   std::vector<Piece> kept_pieces(const Arrangement& arrangement);
   Surface rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces);
-  double reach() const;
+  double reach(int rounds) const;
+  std::vector<Index> new_needles();
+  bool remove_new_needles();
   bool move_apart(const std::string& where);
   void judge();
   void ask_others() const;
@@ -103,8 +106,10 @@ class Uniter {
   const UnionOptions& options_;
   Poll poll_;
   Soup soup_;
+  std::vector<Position> given_;  // vertices, sorted
   UnionResult result_;
   bool settled_ = false;  // did the last round only confirm what was there?
+  std::size_t fewest_needles_ = std::numeric_limits<std::size_t>::max();
 };
 
 bool Uniter::take(const Surface& surface) {
@@ -112,6 +117,8 @@ bool Uniter::take(const Surface& surface) {
     return fail(UnionCode::unsound, defect);
   }
   soup_ = soup_of(surface);
+  given_ = soup_.vertices;
+  std::sort(given_.begin(), given_.end());
   UnionCounts& counts = result_.counts;
   counts.welded = soup_.welded;
   counts.degenerate = soup_.degenerate;
@@ -146,9 +153,40 @@ std::vector<Piece> Uniter::kept_pieces(const Arrangement& arrangement) {
   return kept;
 }
 
-double Uniter::reach() const {
+double Uniter::reach(int rounds) const {
   constexpr int kDigits = 48;
-  return std::ldexp(1, std::ilogb(largest_coordinate(soup_)) - kDigits + 2 * result_.counts.rounds);
+  return std::ldexp(1, std::ilogb(largest_coordinate(soup_)) - kDigits + 2 * rounds);
+}
+
+// Triangles with a new corner, as thin as what is joined first. Cutting leaves them where surfaces
+// cross within roundings of a vertex or an edge.
+std::vector<Index> Uniter::new_needles() {
+  const double thin = reach(0);
+  std::vector<Index> found;
+  for (Index t = 0; t < soup_.triangles.size(); ++t) {
+    poll_();
+    const Triangle& corners = soup_.triangles[t];
+    const auto is_given = [&](Index v) {
+      return std::binary_search(given_.begin(), given_.end(), soup_.vertices[v]);
+    };
+    if (is_needle(soup_, corners, thin) && !std::all_of(corners.begin(), corners.end(), is_given)) {
+      found.push_back(t);
+    }
+  }
+  return found;
+}
+
+// Whether there were any, and fewer than before: what is left of them may be thin, or meet, again.
+bool Uniter::remove_new_needles() {
+  const std::vector<Index> needles = new_needles();
+  if (needles.empty() || needles.size() >= fewest_needles_ || result_.counts.rounds > kRounds / 2) {
+    return false;
+  }
+  fewest_needles_ = needles.size();
+  result_.counts.needles += needles.size();
+  // Short edges a little longer than the height go as well: halved instead, others become as short.
+  result_.counts.largest_move += remove_needles(soup_, needles, 2 * reach(0), poll_);
+  return true;
 }
 
 Surface Uniter::rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces) {
@@ -211,7 +249,10 @@ bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
 bool Uniter::unite_pieces() {
   while (true) {
     std::vector<MeetingPair> pairs = meeting_pairs(soup_, poll_);
-    if (pairs.empty() && settled_) return true;
+    if (pairs.empty() && settled_) {
+      if (!remove_new_needles()) return true;
+      pairs = meeting_pairs(soup_, poll_);
+    }
     if (result_.counts.rounds == kRounds) {
       return fail(UnionCode::imprecise,
                   pairs.empty()
@@ -221,7 +262,7 @@ bool Uniter::unite_pieces() {
                             place(soup_.vertices[soup_.triangles[pairs.front().a][0]]));
     }
     if (!pairs.empty()) {
-      result_.counts.largest_move += join_near(soup_, pairs, reach(), poll_);
+      result_.counts.largest_move += join_near(soup_, pairs, reach(result_.counts.rounds), poll_);
       pairs = meeting_pairs(soup_, poll_);
     }
     if (!cut_and_round(pairs)) return false;
@@ -254,6 +295,10 @@ void Uniter::tell_result() {
                          number(counts.volume_before) + " became " +
                          std::to_string(counts.bodies_after) + " of " +
                          number(counts.volume_after));
+  tell(counts.needles, "triangle removed that was as thin as roundings",
+       "triangles removed that were as thin as roundings");
+  tell(new_needles().size(), "triangle left that is as thin as roundings",
+       "triangles left that are as thin as roundings");
   if (counts.new_points == 0 && counts.largest_move == 0) return;
   result_.done.push_back(
       "points moved by at most " + number(counts.largest_move) + " by rounding" +

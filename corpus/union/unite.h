@@ -23,8 +23,10 @@
 //   manifold. If it is manifold, CGAL's polygon mesh processing and OpenMesh find it valid.
 // - Vertices that are left are where they were, to the last bit; new ones are where their exact
 //   place is rounded to, and `largest_move` bounds how far these and what was joined have moved.
-// - A triangle that meets no other and is at no edge of more than two is the same triangle if it is
-//   kept. Every other one has the label of triangles of its plane that cover it.
+// - No new triangle is thinner than a 2^-48 of the largest coordinate, or a line says how many are.
+// - A triangle that meets no other, is at no edge of more than two and beside none that thin is the
+//   same triangle if it is kept. Every other one has the label of triangles of its plane that cover
+//   it.
 // - Around other triangles no vertex is left within a flat side of one label, or on a straight edge
 //   between two (flat_sides.h).
 // - The union of a result is that result.
@@ -73,6 +75,7 @@ struct UnionCounts {
   std::uint64_t cut = 0, new_points = 0;              // triangles, points of the arrangement
   std::uint64_t dropped = 0;                          // pieces that are no part of the result
   std::uint64_t flat_vertices = 0;  // given and new ones that the shape does not need
+  std::uint64_t needles = 0;        // triangles as thin as roundings, removed
   std::uint64_t inside_out = 0;     // patches with a negative winding number behind
   std::uint64_t touching_edges = 0, touching_vertices = 0;
   std::uint64_t halved_edges = 0, copies = 0;  // by moving parts apart

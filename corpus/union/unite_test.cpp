@@ -530,6 +530,78 @@ TEST(Union, OfTurnsThatMeetUpToRounding) {
   }
 }
 
+// Of a globe: meridians and parallels.
+Surface globe(std::uint32_t parallels, std::uint32_t meridians, const Point& centre) {
+  Surface surface;
+  const auto add = [&](double polar, double turn) {
+    surface.vertices.push_back({centre[0] + std::sin(polar) * std::cos(turn),
+                                centre[1] + std::sin(polar) * std::sin(turn),
+                                centre[2] + std::cos(polar)});
+  };
+  const auto at = [&](std::uint32_t i, std::uint32_t j) {
+    return (i - 1) * meridians + j % meridians;
+  };
+  for (std::uint32_t i = 1; i < parallels; ++i) {
+    for (std::uint32_t j = 0; j < meridians; ++j) {
+      add(std::numbers::pi * i / parallels, 2 * std::numbers::pi * j / meridians);
+    }
+  }
+  const auto north = static_cast<std::uint32_t>(surface.vertices.size()), south = north + 1;
+  add(0, 0);
+  add(std::numbers::pi, 0);
+  for (std::uint32_t j = 0; j < meridians; ++j) {
+    surface.triangles.push_back({north, at(1, j), at(1, j + 1)});
+    surface.triangles.push_back({south, at(parallels - 1, j + 1), at(parallels - 1, j)});
+    for (std::uint32_t i = 1; i + 1 < parallels; ++i) {
+      surface.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      surface.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return surface;
+}
+
+double least_height(const Surface& surface) {
+  double least = HUGE_VAL;
+  for (const auto& t : surface.triangles) {
+    std::array<Point, 3> side;
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point &p = surface.vertices[t[k]], &q = surface.vertices[t[(k + 1) % 3]];
+      side[k] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+      longest = std::max(longest, std::hypot(side[k][0], side[k][1], side[k][2]));
+    }
+    const auto& [u, v, w] = side;
+    least = std::min(least, std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                       u[0] * v[1] - u[1] * v[0]) /
+                                longest);
+  }
+  return least;
+}
+
+// Meridians of both meet in the plane between their centres, up to roundings.
+TEST(Union, LeavesNoNeedles) {
+  std::uint64_t needles = 0;
+  for (const double apart : {0.25, 0.5, 0.75, 1.0}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Point centre{0, 0, 0};
+      centre[axis] = apart / 2;
+      const Surface one = globe(16, 24, centre);
+      centre[axis] = -apart / 2;
+      const Surface both = together({one, globe(16, 24, centre)});
+      const UnionResult result = unite(both);
+      EXPECT_EQ(result.code, UnionCode::done) << result.message;
+      EXPECT_TRUE(certified_valid(result.surface));
+      EXPECT_GT(least_height(result.surface), 0x1p-48) << apart << " " << axis;
+      EXPECT_FALSE(says(result, "left"));
+      EXPECT_LT(result.counts.largest_move, 1e-13);
+      EXPECT_LT(result.counts.volume_after, result.counts.volume_before);
+      needles += result.counts.needles;
+      EXPECT_EQ(unite(result.surface).surface.triangles, result.surface.triangles);
+    }
+  }
+  EXPECT_GT(needles, 0U);
+}
+
 TEST(Union, OfSpheres) {
   Random random(3);
   const Surface one = shapes::sphere(3, [&] { return random.between(0.98, 1); });
