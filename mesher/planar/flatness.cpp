@@ -19,16 +19,29 @@ namespace {
 using predicates::Vec3;
 
 constexpr double kExplained = 1.25;  // bends up to so many roundings
+constexpr double kMore = 4;          // and larger ones up to so many times that
+constexpr double kRough = 0.45;
+
+double count_bends(const std::vector<double>& bends, double low, double high) {
+  return static_cast<double>(std::ranges::count_if(
+      bends, [=](double x) { return std::fabs(x) > low && std::fabs(x) <= high; }));
+}
 
 // Are the bends above `least` what coordinates that are off by `rounding` make of flat faces?
 bool explains(double rounding, const std::vector<double>& bends, double least) {
-  constexpr double kMore = 4, kTimes = 4.5;
-  const auto count = [&bends](double low, double high) {
-    return static_cast<double>(std::ranges::count_if(
-        bends, [=](double x) { return std::fabs(x) > low && std::fabs(x) <= high; }));
-  };
+  constexpr double kTimes = 4.5;
   const double most = kExplained * rounding;
-  return count(least, most) > kTimes * std::max(1.0, count(std::max(least, most), kMore * most));
+  return count_bends(bends, least, most) >
+         kTimes * std::max(1.0, count_bends(bends, std::max(least, most), kMore * most));
+}
+
+// Are the bends from `least` to `most` those of a curved surface, of which as many edges are bent
+// by a little more, or edges beside each other alike?
+bool are_of_curves(const Surface& surface, const std::vector<double>& bends, double least,
+                   double most) {
+  const double small = count_bends(bends, least, most);
+  return small > 0 && (count_bends(bends, most, kMore * most) >= small ||
+                       roughness(surface, least, most) < kRough);
 }
 
 class PlanarGroups {
@@ -87,7 +100,6 @@ double flatness(const Surface& surface, Control& control) {
   constexpr double kOfRounding = 1.5, kMostRounded = 0x1p-14;  // of the diagonal
   constexpr double kMostNoise = kMostRounded / 4;
   constexpr std::ptrdiff_t kFewest = 8;
-  constexpr double kRough = 0.45;
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   double largest = 0;
   for (const Vec3& v : surface.vertices) {
@@ -105,8 +117,9 @@ double flatness(const Surface& surface, Control& control) {
   for (const double x : all) {
     if (std::fabs(x) <= most) flat = std::max(flat, std::fabs(x));
   }
-  double result = std::min(4 * flat, most);
   const double rounding = rounding_of_coordinates(surface, kMostRounded / kOfRounding * diagonal);
+  const bool meant = rounding == 0 && are_of_curves(surface, all, least, most);
+  double result = meant ? least : std::min(4 * flat, most);
   if (explains(rounding, all, least)) result = std::max(result, kOfRounding * rounding);
   std::optional<const PlanarGroups> groups;
   const auto look_for_noise = [&](double resolved, std::ptrdiff_t fewest) {

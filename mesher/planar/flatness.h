@@ -9,7 +9,9 @@ namespace delmesher::planar {
 // An edge that is bent (edge_bends.h) by less than 2^-20 of the diagonal of the bounding box is
 // called flat. Returns four times the largest such bend, since the corners of many triangles are
 // farther from their plane than those of two, at most 2^-20 of the diagonal and at least 64 ulp of
-// the largest coordinate.
+// the largest coordinate; these 64 ulp where all of a double's digits are used and the small bends
+// are of a curved surface: as many edges are bent by up to four times that limit, or edges beside
+// each other are bent alike (`roughness`, below 0.45).
 //
 // Where coordinates were rounded more coarsely (resolution.h), flat faces are bent by more. That
 // shows: hardly an edge is bent by a bit more than rounding explains, while there are edges of
