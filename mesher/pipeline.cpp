@@ -68,6 +68,29 @@ bool is_flat(const SurfaceTopology& topology, Predicates& predicates) {
   });
 }
 
+// Powers of shorter lengths are no doubles, and a refinement that strives for them need not end.
+Status sizes_are_doubles(const Surface& surface, const Session& s) {
+  constexpr double kShortest = 1e-50;  // of the diagonal
+  for (std::size_t n = 0; n < s.options.size_field.size(); ++n) {
+    const auto& [place, size] = s.options.size_field[n];
+    if (!(size < kShortest * s.diagonal)) continue;
+    Vec3 nearest = place;  // in the box
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] =
+          std::ranges::minmax(surface.vertices, {}, [k](const auto& v) { return v[k]; });
+      nearest[k] = std::clamp(place[k], low[k], high[k]);
+    }
+    if (s.sizes.at(nearest) < kShortest * s.diagonal) {
+      return {StatusCode::limit_reached,
+              "source " + std::to_string(n) +
+                  " of the size field asks for edges below 1e-50 of the diagonal, too short for "
+                  "double precision",
+              Limit::precision};
+    }
+  }
+  return {};
+}
+
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
 // near-coplanar triangles in exactly one plane. A complex as it is given.
 Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
@@ -77,6 +100,7 @@ Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& reco
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
+  if (Status status = sizes_are_doubles(surface, s); !status.ok()) return status;
   if (rules == Rules::solid) {
     recorder.planar(enter_surface(surface, validity, planes, s), validity);
     return {};

@@ -464,6 +464,25 @@ TEST(Precision, EndsWithALimitThatNamesTheEdge) {
   }
 }
 
+// From 1e-55 on, a refinement did not end.
+TEST(Precision, SizesBelowDoublesAreALimit) {
+  const auto meshed = [](const std::array<double, 3>& place, double size) {
+    Options options;
+    options.size_field = {{{0.5, 0.5, 0.5}, 1}, {place, size}};
+    Surface cube;
+    samples::add_box(cube, {0, 0, 0}, {1, 1, 1});
+    return delmesher::tetrahedralize(cube, options).status;
+  };
+  for (const double size : {1e-51, 1e-60, 1e-70, 1e-300}) {
+    const delmesher::Status status = meshed({0, 0, 0}, size);
+    EXPECT_EQ(status.code, StatusCode::limit_reached) << size;
+    EXPECT_EQ(status.limit, delmesher::Limit::precision) << size;
+    EXPECT_EQ(status.message.find("source 1 of the size field"), 0U) << status.message;
+  }
+  EXPECT_TRUE(meshed({0, 0, 0}, 1e-20).ok());
+  EXPECT_TRUE(meshed({3, 0, 0}, 1e-60).ok());  // the field has grown where the body is
+}
+
 // An input of the fuzz target `complexity`: a quarter of the tetrahedra are not positive when they
 // are rounded. Repairing them one by one took five million signs before points went.
 TEST(Precision, RepairsOfManyTetrahedraWaitUntilPointsAreTakenOut) {
