@@ -54,6 +54,8 @@ def cases():
     yield "cracks", "vertices nearly coincide", apart(points, one, 1e-7)
     yield "soup", "vertices coincide", apart(points, one)
     yield "flat", "1 flat sheet", ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    crossed = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, -1, -1), (1, 3, -1), (1, 3, 1), (1, -1, 1)]
+    yield "crossed sheets", "2 flat sheets", (crossed, [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)])
     yield "hole", "1 hole", (points, one[1:])
     yield "T-junction", "1 T-junction", (points + [(1, 0.5, 0.5)], one[:10] + [(1, 3, 8), (3, 7, 8), (1, 7, 5)])
     yield "twice", "mends triangles without area, duplicates and orientation", (points, one + one[:1])
@@ -109,7 +111,10 @@ class Hints(unittest.TestCase):
                 self.assertEqual(len(hint), 1, said.stdout)
                 if "flat sheet" in words:
                     self.assertNotIn("--fill", said.stdout)
-                    self.assertEqual(run(DELMESHER, "plane", given, "-o", path(name + ".msh")).returncode, 0)
+                    in_plane = name == "flat"
+                    self.assertEqual(run(DELMESHER, "plane", given, "-o", path(name + ".msh")).returncode, 0 if in_plane else 3)
+                    self.assertEqual("nothing here cuts open sheets" in said.stdout, not in_plane)
+                    self.assertNotIn("union", said.stdout)
                     continue
                 for command in re.findall("`([^`]*)`", hint[0]):
                     program, *arguments = shlex.split(command)

@@ -80,13 +80,7 @@ std::uint64_t flat_sheets(const Surface& surface) {
   return first.size();
 }
 
-// `apart`: welding closes nothing.
-std::vector<std::string> hints_of_holes(const Surface& surface, bool apart) {
-  if (const std::uint64_t sheets = apart ? flat_sheets(surface) : 0; sheets > 0) {
-    return {counted(sheets, "flat sheet") +
-            (sheets == 1 ? ", which encloses nothing" : ", which enclose nothing") +
-            ": there is no solid; OFF and OBJ with z = 0 are for `delmesher plane`"};
-  }
+std::vector<std::string> hints_of_holes(const Surface& surface) {
   const Holes all = holes_of(surface);
   std::vector<const Hole*> holes, slits;
   for (const Hole& hole : all.holes) {
@@ -266,7 +260,9 @@ std::vector<std::string> hints_of(const Surface& surface, const SurfaceReport& r
   std::vector<std::string> lines;
   const bool indices = count_of(report, Kind::index_out_of_range) == 0;
   const bool finite = count_of(report, Kind::non_finite) == 0;
-  if (indices && finite && count_of(report, Kind::open_edge) > 0) {
+  const bool open = count_of(report, Kind::open_edge) > 0;
+  std::uint64_t sheets = 0;
+  if (indices && finite && open) {
     const WeldHint hint = weld_hint(surface);
     if (hint.closed > 0) {
       lines.push_back((hint.distance == 0 ? "vertices coincide: `delmesher repair"
@@ -275,8 +271,13 @@ std::vector<std::string> hints_of(const Surface& surface, const SurfaceReport& r
                       "` would close " + std::to_string(hint.closed) + " of " +
                       std::to_string(count_of(report, Kind::open_edge)) + " open edges");
     }
-    for (std::string& line : hints_of_holes(surface, hint.closed == 0)) {
-      lines.push_back(std::move(line));
+    sheets = hint.closed == 0 ? flat_sheets(surface) : 0;
+    if (sheets > 0) {
+      lines.push_back(counted(sheets, "flat sheet") +
+                      (sheets == 1 ? ", which encloses nothing" : ", which enclose nothing") +
+                      ": there is no solid; OFF and OBJ with z = 0 are for `delmesher plane`");
+    } else {
+      for (std::string& line : hints_of_holes(surface)) lines.push_back(std::move(line));
     }
   }
   const std::vector<Contact> touching = contacts(surface, report);
@@ -292,13 +293,15 @@ std::vector<std::string> hints_of(const Surface& surface, const SurfaceReport& r
     lines.push_back("that may make the edges manifold as well: check the mended surface");
   }
   for (const Contact& contact : touching) lines.push_back(contact.what + ": " + contact.advice);
-  if (touching.empty() && !more_first && count_of(report, Kind::self_intersection) > 0) {
+  // What is open is closed first; then there are other hints.
+  if (touching.empty() && !more_first && count_of(report, Kind::self_intersection) > 0 &&
+      (!open || sheets > 0)) {
     lines.push_back(
-        report.components > 1
+        sheets > 0 ? "triangles meet: nothing here cuts open sheets along each other"
+        : report.components > 1
             ? "triangles meet: if bodies overlap, `tetproof union` makes one of them; or mesh them "
               "one by one"
-            : "triangles meet: `tetproof union` cuts them there and keeps the outside, if the "
-              "surface closes up");
+            : "triangles meet: `tetproof union` cuts them there and keeps the outside");
   }
   return lines;
 }
