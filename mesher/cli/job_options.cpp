@@ -50,21 +50,27 @@ Bounds bounds_of(const Value& option) {
   return bounds;
 }
 
-CLI::Validator number_within(const Bounds& bounds, bool whole) {
-  return CLI::Validator(
-      [bounds, whole](std::string& text) -> std::string {
-        double value = 0;
-        if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
-        if (whole && value != std::floor(value)) return "not a whole number: " + text;
-        return bounds.allow(value) ? "" : "out of range: " + text + " (" + range_text(bounds) + ")";
-      },
-      "NUMBER");
-}
-
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
   return text;
+}
+
+// A number, or one of the words.
+CLI::Validator number_within(const Bounds& bounds, bool whole,
+                             const std::vector<std::string>& words = {}) {
+  return CLI::Validator(
+      [bounds, whole, words](std::string& text) -> std::string {
+        double value = 0;
+        if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+        if (io::parse_double(text, value) != io::NumberStatus::ok) {
+          return words.empty() ? "not a number: " + text
+                               : "neither a number nor " + joined(words, " nor ") + ": " + text;
+        }
+        if (whole && value != std::floor(value)) return "not a whole number: " + text;
+        return bounds.allow(value) ? "" : "out of range: " + text + " (" + range_text(bounds) + ")";
+      },
+      "NUMBER");
 }
 
 std::vector<std::string> words_of(const Value& option) {
@@ -112,9 +118,8 @@ void add_option(CLI::App& app, GivenOptions& given, const Value& option) {
       argument, [&given, name](const std::string& text) { given[name] = text; }, help_of(option));
   const bool numeric = option.kind == Kind::number || option.kind == Kind::count;
   const std::vector<std::string> words = words_of(option);
-  const CLI::Validator number = number_within(bounds_of(option), option.kind == Kind::count);
   if (numeric) {
-    added->check(words.empty() ? number : CLI::IsMember(words) | number);
+    added->check(number_within(bounds_of(option), option.kind == Kind::count, words));
   } else if (option.kind != Kind::sources) {
     added->check(CLI::IsMember(words));
   }

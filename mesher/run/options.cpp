@@ -65,16 +65,18 @@ std::string_view useless_if_kept(const Options& given) {
 
 std::string combination_defect(const Options& given) {
   if (given.regions == Regions::all && given.surface == SurfaceChoice::split) {
-    return "regions all needs surface keep";
+    return "--regions all needs --surface keep";
   }
   if (given.regions == Regions::all && given.want_exact) {
-    return "regions all has no exact record yet";
+    return "--regions all has no exact record yet";
   }
   if (given.surface != SurfaceChoice::keep && given.regions == Regions::solid) {
-    return given.strict ? "strict needs surface keep" : "";
+    return given.strict ? "--strict needs --surface keep" : "";
   }
   const std::string_view useless = useless_if_kept(given);
-  return useless.empty() ? "" : std::string(useless) + " does nothing with surface keep";
+  if (useless.empty()) return {};
+  return "--" + options::argument_name(useless) + " does nothing with " +
+         (given.regions == Regions::all ? "--regions all" : "--surface keep");
 }
 
 template <class JobOptions>
