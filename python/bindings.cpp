@@ -330,6 +330,7 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
   SurfaceReport report = watch.run([&] { return check_surface(surface, options); });
   py::dict d, counts, places;
   put_status(d, report.status, report.warnings);
+  d["hints"] = surface_hints(surface, report);  // which needs the places
   for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
     if (report.defect_counts[kind] == 0) continue;
     counts[defect_name(static_cast<Defect::Kind>(kind))] = report.defect_counts[kind];
@@ -342,7 +343,6 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
                                   taken(std::vector(defect.triangles))));
   }
   d["counts"] = counts;
-  d["hints"] = surface_hints(surface, report);
   d["places"] = places;
   d["defects"] = defects;
   d["flipped"] = report.flipped;

@@ -228,7 +228,6 @@ def test_names_of_regions_come_back(tmp_path):
         assert tetproof.improve(back).region_names == mesh.region_names
 
 
-@pytest.mark.parametrize("with_tqdm", [False, True])
 def test_bodies_that_share_a_wall_are_regions(tmp_path):
     points = np.array([(x, y, z) for x in (0, 1, 3) for y in (0, 1) for z in (0, 1)], float)
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -245,6 +244,7 @@ def test_bodies_that_share_a_wall_are_regions(tmp_path):
     assert len(mesh.boundary) == len(triangles) - 2
 
 
+@pytest.mark.parametrize("with_tqdm", [False, True])
 def test_a_bar_for_every_function(capsys, monkeypatch, with_tqdm):
     shown = []
 
@@ -446,6 +446,23 @@ def test_messages_speak_python():
         tetproof.mesh(*soup)
     with pytest.raises(tetproof.LimitReached, match="see max_vertices|max_vertices"):
         tetproof.mesh(POINTS, TRIANGLES, max_edge=0.1, max_vertices=20)
+    with pytest.raises(ValueError, match="^strict needs surface='keep'$"):
+        tetproof.mesh(POINTS, TRIANGLES, strict=True)
+    with pytest.raises(ValueError, match="^chamfer_radius does nothing with regions='all'$"):
+        tetproof.mesh(POINTS, TRIANGLES, regions="all", chamfer_radius=1)
+    with pytest.raises(ValueError, match="size_growth: of no effect without size_field"):
+        tetproof.mesh(POINTS, TRIANGLES, size_growth=0.5)
+    with pytest.raises(TypeError, match="points and triangles are expected, .* not Scene"):
+        tetproof.mesh(type("Scene", (), {"triangles": TRIANGLES})())
+    assert "--" not in tetproof.mesh.__doc__ and "With surface='keep': fail" in tetproof.mesh.__doc__
+
+
+def test_hints_know_all_defects():
+    """Two boxes with a wall in common, each with its own triangles of it."""
+    second = np.where(TRIANGLES % 2 == 1, TRIANGLES + 8, TRIANGLES + 1)
+    report = tetproof.check(np.vstack([POINTS, POINTS + [1, 0, 0]]), np.vstack([TRIANGLES, second]))
+    assert report.hints == ["bodies, or parts of one, touch in 2 triangles: `tetproof.repair()` makes one of them, "
+                            "or `tetproof.mesh(regions='all')` meshes each as a region"]
 
 
 def test_ten_nodes(tmp_path):

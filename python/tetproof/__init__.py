@@ -435,15 +435,24 @@ def _signed(value: Any) -> Any:
     return value.view(np.int32) if value.size == 0 or value.max() < 1 << 31 else value.astype(np.int64)
 
 
+#: Values of options that are words.
+_WORDS = sorted({word for options in _core.options.values() for _, kind, *_ in options for word in re.findall(r"'(\w+)'", kind)})
+
+
 def _in_python(text: str) -> str:
     """What messages say of the command line, as it is called here."""
-    def call(match: "re.Match[str]") -> str:
-        arguments = ["%s=%s" % (name, value or "True") for name, value in re.findall(r"--([a-z]+)(?: ([^ `-][^ `]*))?", match[2])]
-        return "`tetproof.%s(%s)`" % (match[1], ", ".join(arguments))
+    def argument(match: "re.Match[str]") -> str:
+        name, value = match[1].replace("-", "_"), match[2]
+        return name if value is None else "%s=%s" % (name, repr(value) if value in _WORDS else value)
 
-    text = re.sub(r"`delmesher (repair|check|improve|plane)([^`]*)`", call, text)
+    def call(match: "re.Match[str]") -> str:
+        arguments = [argument(found) for found in re.finditer(r"--([a-z-]+)(?: ([^ -][^ ]*))?", match[2])]
+        return "`tetproof.%s(%s)`" % (match[1], ", ".join(a if "=" in a else a + "=True" for a in arguments))
+
+    text = re.sub(r"`delmesher ([a-z]+)([^`]*)`", call, text)
     outside = re.split(r"(`[^`]*`)", text)  # commands of the harness stay
-    return "".join(part if part.startswith("`") else re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), part) for part in outside)
+    given = r"--([a-z][a-z-]*)(?: (%s|[0-9](?:[0-9.e+-]*[0-9])?)\b)?" % "|".join(_WORDS)
+    return "".join(part if part.startswith("`") else re.sub(given, argument, part) for part in outside)
 
 
 def _of_planes(text: str) -> str:
@@ -458,13 +467,14 @@ def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Op
             points, triangles = given.vertices, given.faces
         elif hasattr(given, "cells_dict") and "triangle" in given.cells_dict:
             points, triangles = given.points, given.cells_dict["triangle"]
-        elif hasattr(given, "triangles"):
+        elif hasattr(given, "points") and hasattr(given, "triangles"):
             points, triangles = given.points, given.triangles
             labels = labels if labels is not None else getattr(given, "labels", None)
         elif hasattr(given, "faces") and hasattr(given, "points"):
             points, triangles = given.points, np.reshape(given.faces, (-1, 4))[:, 1:]
         else:
-            raise TypeError("points and triangles are expected, or an object that has them; `read` makes one of a file")
+            raise TypeError("points and triangles are expected, or an object that has them, not %s; `read` makes one of a file"
+                            % type(given).__name__)
     return _points(points), _indices(triangles, "triangles"), _labels(labels)
 
 
@@ -478,6 +488,7 @@ def _with_options(function: _Function) -> _Function:
     for name, kind, default, unit, text in _core.options[function.__name__]:
         parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default))
         lines.append("    %s : %s, %s" % (name, kind, "optional" if default is None else "default %r" % default))
+        text = _in_python(text)
         lines.append("        %s%s." % (text[0].upper() + text[1:], unit and ", " + unit))
     function.__signature__ = signature.replace(parameters=parameters)  # type: ignore
     if function.__doc__:  # not there with -OO
@@ -493,6 +504,8 @@ def _options(job: str, given: Mapping[str, Any]) -> Dict[str, Any]:
         near = difflib.get_close_matches(unknown[0], names, 1)
         hint = ": did you mean %s?" % near[0] if near else " (there are %s)" % ", ".join(names)
         raise TypeError("no such option: %s%s" % (", ".join(unknown), hint))
+    if "size_growth" in options and "size_field" not in options:
+        raise ValueError("size_growth: of no effect without size_field")
     named: Dict[str, Any] = {name: value if isinstance(value, str) else float(value) for name, value in options.items() if name != "size_field"}
     if "size_field" in options:
         named["size_field"] = np.ascontiguousarray(options["size_field"], dtype=np.float64)
