@@ -5,7 +5,7 @@
 >>> triangles = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
 ...              [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]
 >>> mesh = tetproof.mesh(points, triangles, max_edge=0.5)
->>> round(mesh.volumes().sum(), 12)
+>>> float(round(mesh.volumes().sum(), 12))
 1.0
 """
 import contextlib
