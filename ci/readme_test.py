@@ -33,6 +33,7 @@ def stl(triangles, place=lambda x, y, z: (x, y, z)):
 FILES = {
     "part.stl": stl(CUBE),
     "torn.stl": stl(CUBE[1:]),
+    "scan.stl": stl(CUBE),
     "rotated.stl": stl(CUBE, lambda x, y, z: (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z / 3)),
     "air.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (4 * x - 2, 4 * y - 2, 4 * z - 2)),
     "assembly.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (x + 1, y, z)),

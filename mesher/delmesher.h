@@ -52,6 +52,17 @@ Result constrained_delaunay(const Surface& surface, const CdtOptions& options = 
 // overlaps of tetrahedra without a common face are not looked for.
 Result improve_mesh(const TetMesh& mesh, const ImproveOptions& options = {});
 
+struct RemeshResult {
+  Status status;
+  std::vector<std::string> warnings;
+  Surface surface;       // empty unless status.ok(); turned outwards
+  double tolerance = 0;  // the length
+};
+
+// Another surface within options.tolerance of a valid one, in both directions: with few and round
+// triangles, or with edges of a wanted length, valid again, with the same topology and labels.
+RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options = {});
+
 // Decides exactly whether a surface is valid input. Angles are judged with options.acute.
 SurfaceReport check_surface(const Surface& surface, const CheckOptions& options = {});
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,7 @@
 #include "mesher/policies/planar_runs.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
+#include "mesher/remesh/remesh.h"
 #include "mesher/results/recorder.h"
 #include "mesher/results/region_list.h"
 #include "mesher/results/rounding_input.h"
@@ -544,6 +546,40 @@ Result run_plain_cdt(const Surface& surface, const Options& options, const Local
              options, frame);
 }
 
+// A mesh of another surface within the tolerance.
+template <Task* kTask>
+Result run_within(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  if (options.tolerance == 0) return kTask(surface, options, frame);
+  Result result;
+  remesh::Remeshed remeshed;
+  Control control(options);
+  result.status = guarded(control, [&]() -> Status {
+    if (const std::string defect = options_defect(options); !defect.empty()) {
+      return {StatusCode::invalid_options, defect};
+    }
+    const SizeField sizes(options.size_field, options.size_growth);
+    remeshed = remesh::remesh(
+        surface, {options.tolerance, options.feature, options.max_edge, &sizes}, frame, control);
+    return remeshed.status;
+  });
+  const auto& seconds = control.phase_seconds();
+  if (result.status.ok()) {
+    Options left = options;
+    if (left.time_limit_seconds > 0) {
+      const double spent = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+      left.time_limit_seconds = std::max(left.time_limit_seconds - spent, 1e-3);
+    }
+    result = kTask(remeshed.surface, left, frame);
+  }
+  result.warnings.insert(result.warnings.begin(), remeshed.warnings.begin(),
+                         remeshed.warnings.end());
+  Statistics& s = result.statistics;
+  for (std::size_t i = 0; i < kPhaseCount; ++i) s.phase_seconds[i] += seconds[i];
+  s.tolerance = remeshed.tolerance;
+  s.remeshed_triangles = remeshed.surface.triangles.size();
+  return result;
+}
+
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
@@ -553,8 +589,9 @@ Result tetrahedralize(const Surface& surface, const Options& options) {
     if (result.status.ok()) list_regions(merged, result);
     return result;
   }
-  return in_ordinary_units(surface, options,
-                           options.surface == SurfaceChoice::keep ? run_kept : run_mesh);
+  Task& task =
+      *(options.surface == SurfaceChoice::keep ? &run_within<run_kept> : &run_within<run_mesh>);
+  return in_ordinary_units(surface, options, task);
 }
 
 Result constrained_delaunay(const Surface& surface, const CdtOptions& given) {

@@ -88,6 +88,7 @@ std::string type_of(const options::Value& option) {
   static constexpr const char* kTypes[] = {"float", "int", "bool", "",
                                            "(k, 4) array_like of float"};
   std::string type = kTypes[static_cast<std::size_t>(option.kind)];
+  if (option.text.unit == options::Unit::length_or_share) type += " or str";
   for (const options::Word& word : option.text.words) {
     if (word.word.empty()) continue;
     type += (type.empty() ? "'" : " or '") + std::string(word.word) + "'";
@@ -144,13 +145,19 @@ py::object default_of(const options::Value& option) {
   }
   if (option.kind == options::Kind::on_off) return py::bool_(option.value != 0);
   if (option.kind == options::Kind::count) return py::int_(static_cast<std::int64_t>(option.value));
+  if (option.text.unit == options::Unit::length_or_share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%gd", -option.value);
+    return py::str(text);
+  }
   return py::float_(option.value);
 }
 
 // The options of a job: name, type, default, unit, meaning.
 template <class JobOptions>
 std::vector<py::tuple> described() {
-  static constexpr const char* kUnits[] = {"", "degrees", "in units of the input", "seconds"};
+  static constexpr const char* kUnits[] = {"", "degrees", "in units of the input", "seconds",
+                                           "in units of the input"};
   std::vector<py::tuple> rows;
   for (const options::Value& option : options::values_of(JobOptions())) {
     rows.push_back(py::make_tuple(
@@ -167,6 +174,7 @@ py::dict all_described() {
   jobs["plane"] = described<PlaneOptions>();
   jobs["improve"] = described<ImproveOptions>();
   jobs["check"] = described<CheckOptions>();
+  jobs["remesh"] = described<RemeshOptions>();
   return jobs;
 }
 
@@ -320,6 +328,20 @@ py::dict improve(const py::dict& given_mesh, const py::dict& given, py::object p
   auto options = options_of<ImproveOptions>(given);
   Watch watch(options, std::move(progress));
   return dict_of(watch.run([&] { return improve_mesh(before, options); }));
+}
+
+py::dict remesh(const Array<double>& points, const Array<std::uint32_t>& triangles,
+                const Labels& labels, const py::dict& given, py::object progress) {
+  const Surface surface = surface_of(points, triangles, labels);
+  auto options = options_of<RemeshOptions>(given);
+  Watch watch(options, std::move(progress));
+  RemeshResult result = watch.run([&] { return remesh_surface(surface, options); });
+  py::dict d;
+  put_status(d, result.status, result.warnings);
+  d["points"] = taken(std::move(result.surface.vertices));
+  d["triangles"] = taken(std::move(result.surface.triangles));
+  d["labels"] = taken(std::move(result.surface.labels));
+  return d;
 }
 
 py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangles,
@@ -529,6 +551,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("label_by_angle", &label);
   module.def("labelled_faces", &faces);
   module.def("repair", &repair);
+  module.def("remesh", &remesh);
   module.def("plane", &plane);
   module.def("check_plane", &check_plane);
   module.def("repair_plane", &repair_plane);

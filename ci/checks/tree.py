@@ -39,6 +39,7 @@ LAYERS = {
     "cdt": FOUNDATION,
     "plane": FOUNDATION,
     "improve": FOUNDATION,
+    "remesh": ("base", "arithmetic", "predicates", "geometry", "surface"),
     "output": FOUNDATION,
     "enrich": FOUNDATION + ("chamfer", "refine", "cdt"),
     "run": FOUNDATION + ("plane",),

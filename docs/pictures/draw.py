@@ -4,7 +4,7 @@
 Usage: docs/pictures/draw.py DELMESHER FOLDER     Without a screen: xvfb-run -a. Needs `ci/install_packages pictures`. FOLDER gets surfaces, meshes and pictures.
 
 gear.*     a surface, and its mesh cut open, tetrahedra coloured by their smallest dihedral angle
-sizes.*, budgets.*, surface.*, planar.*, improve.*  its meshes by the options of these guides
+sizes.*, budgets.*, surface.*, tolerance.*, planar.*, improve.*  its meshes by the options of these guides
 names.*    its faces, as `--label-by-angle` labels them
 stages.*   a surface, what chamfering leaves of it, the refined mesh of that, the final mesh
 defects.*  a surface with defects, as `delmesher check --defects FILE.vtu` colours it
@@ -181,6 +181,7 @@ GUIDES = {  # what makes the two meshes of each picture
     "budgets": ("--surface split", "--budget 3000"),
     "surface": ("--surface keep", "--surface split"),
     "planar": ("--surface split --planar auto", "--surface split --planar 1e-9"),
+    "tolerance": ("--surface keep", "--tolerance 5e-3d"),
     "improve": ("--surface split --improve off --slivers off", "improve"),
 }
 
@@ -210,11 +211,13 @@ def draw_gear(delmesher, folder):
     draw_pair(folder, "gear", (lambda page: [actor(*read_off(surface), page[2])], "surface"), cut_gear(mesh, "mesh, cut open"), 1600, 580)
     turned = os.path.join(folder, "turned.off")
     models.write_off(turned, models.turned(models.gear()))
+    scan = os.path.join(folder, "scan.off")
+    models.write_off(scan, models.scan())
     for name, captions in GUIDES.items():
         panels = []
         for caption in captions:
             made = os.path.join(folder, "%s%d.vtu" % (name, len(panels)))
-            given = [turned if name == "planar" else surface, *caption.replace("sizes.txt", sizes).split()]
+            given = [turned if name == "planar" else scan if name == "tolerance" else surface, *caption.replace("sizes.txt", sizes).split()]
             if caption == "improve":
                 given = ["improve", os.path.join(folder, "improve0.vtu")]
             run(delmesher, *given, "-o", made)

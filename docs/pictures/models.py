@@ -77,6 +77,26 @@ def sphere(centre, radius, hole=()):
     return points, [t for a, b, c, d in squares for t in ((a, b, c), (a, c, d)) if len(set(t)) == 3]
 
 
+def scan(n=30):
+    """A ball with waves and noise, of 12 n^2 triangles."""
+    number, triangles = {}, []
+    for axis, side, i, j in itertools.product(range(3), (0, n), range(n), range(n)):
+        square = []
+        for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1)):
+            corner = [side, i + di, j + dj]
+            square.append(number.setdefault(tuple(corner[-axis:] + corner[:-axis]), len(number)))
+        a, b, c, d = square if side else square[::-1]
+        triangles += [(a, b, c), (a, c, d)]
+    points = []
+    for k, corner in enumerate(number):
+        x, y, z = (2 * c / n - 1 for c in corner)
+        r = math.sqrt(x * x + y * y + z * z)
+        x, y, z = x / r, y / r, z / r
+        r = 0.75 + 0.12 * math.sin(4 * x + 1) * math.cos(5 * y) * math.cos(3 * z) + 0.003 * (k * 7919 % 101 / 50 - 1)
+        points.append((r * x, r * y, 0.25 + r * z))
+    return points, triangles
+
+
 def dirty_spheres():
     """Two spheres that overlap; a hole, a triangle that is there twice, and one that is turned round."""
     (points, triangles), (more, others) = sphere((0, 0, 0), 1, {(5, 14), (5, 15), (6, 14)}), sphere((1.1, 0.25, 0.1), 0.8)

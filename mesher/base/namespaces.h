@@ -52,6 +52,9 @@ using namespace foundation;  // NOLINT(google-build-using-namespace)
 namespace plane {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 }
+namespace remesh {
+using namespace surface;  // NOLINT(google-build-using-namespace)
+}
 namespace enrich {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 }

@@ -162,6 +162,14 @@ void add_repair(CLI::App& app, Command& command, Given& given) {
   add_options_of<RepairOptions>(app, given);
 }
 
+void add_remesh(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given);
+  add_label_by_angle(app, given);
+  add_outputs(app, command, "surface to write: " + std::string(io::boundary_extensions()));
+  add_names(app, command);
+  add_options_of<RemeshOptions>(app, given);
+}
+
 template <class Job>
 Job options_of(const Given& given, Job start = {}) {
   take(given.options, start);
@@ -202,6 +210,9 @@ void apply(Job job, const Given& given, Command& command) {
     case Job::repair:
       command.options = options_of<RepairOptions>(given);
       break;
+    case Job::remesh:
+      command.options = options_of<RemeshOptions>(given);
+      break;
   }
 }
 
@@ -222,6 +233,10 @@ bool any_is(const std::vector<std::string>& outputs, const char* extension) {
 std::string idle_option(const Command& command, const Given& given) {
   if (given.options.contains("jobs") && given.inputs.size() == 1) {
     return "--jobs: of no effect with one input, see --threads";
+  }
+  if (given.options.contains("feature") && command.job() == Job::mesh &&
+      !given.options.contains("tolerance")) {
+    return "--feature: of no effect without --tolerance";
   }
   if (given.options.contains("size_growth") && command.sizes_file.empty()) {
     return "--size-growth: of no effect without --size-field";
@@ -250,10 +265,12 @@ std::string output_error(const Command& command, bool several,
   if (command.job() == Job::improve) files = io::mesh_files_read(command.input);
   const bool plane = command.job() == Job::plane;
   for (const std::string& output : command.outputs) {
-    const bool surface = command.job() == Job::repair;
-    const std::vector<std::string> made = plane     ? io::plane_files_of(output)
-                                          : surface ? mended_files_of(output)
-                                                    : io::mesh_files_of(output);
+    const bool repair = command.job() == Job::repair, remesh = command.job() == Job::remesh;
+    const bool surface = repair || remesh;
+    const std::vector<std::string> made = plane    ? io::plane_files_of(output)
+                                          : repair ? mended_files_of(output)
+                                          : remesh ? io::boundary_files_of(output)
+                                                   : io::mesh_files_of(output);
     if (made.empty() && output == "-") {
       return "-: standard output needs a format: -.EXT, as in " + std::string(surface ? "-.stl"
                                                                               : plane ? "-.vtu"
@@ -262,6 +279,7 @@ std::string output_error(const Command& command, bool several,
     if (made.empty()) {
       return output + ": unknown " + (surface ? "surface" : "mesh") + " format (" +
              (plane     ? io::plane_extensions()
+              : remesh  ? std::string(io::boundary_extensions())
               : surface ? io::boundary_extensions() + "; of a planar graph " + io::kGraphExtensions
                         : io::mesh_extensions()) +
              ")";
@@ -324,7 +342,8 @@ Parsed usage_error(const std::string& text) {
   return parsed;
 }
 
-const std::vector<std::string> kCommands = {"mesh", "cdt", "plane", "check", "improve", "repair"};
+const std::vector<std::string> kCommands = {"mesh",    "cdt",    "plane", "check",
+                                            "improve", "repair", "remesh"};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -428,12 +447,13 @@ constexpr const char* kExamples =
     "  delmesher part.stl -o part.msh                   mesh a part\n"
     "  delmesher part.obj -o part.inp --max-edge 2      for Abaqus, no edge longer\n"
     "  delmesher mesh *.stl -o out/{name}.vtu --jobs 4  a whole folder\n"
+    "  delmesher scan.stl -o scan.msh --tolerance 1e-3d on a surface so near\n"
     "  delmesher check part.stl                         what is wrong with it?\n"
     "  delmesher repair part.stl -o mended.stl --fill   mend what is safe to mend\n"
     "`delmesher COMMAND --help` tells the options.";
 
 // Of the commands, in their order below.
-constexpr std::array<const char*, 6> kExamplesOf = {
+constexpr std::array<const char*, 7> kExamplesOf = {
     "  delmesher part.stl -o part.msh -o part.vtu\n"
     "  delmesher part.stl -o part.inp --max-edge 2 --order 2\n"
     "  delmesher mesh *.stl -o out/{name}.msh --stats out/{name}.json --jobs 4\n"
@@ -443,11 +463,12 @@ constexpr std::array<const char*, 6> kExamplesOf = {
     "  delmesher check part.stl --defects where.vtu\n"
     "  delmesher check *.stl --json\n",
     "  delmesher improve part.msh -o better.msh\n",
-    "  delmesher repair part.stl -o mended.stl --weld 1e-6 --fill\n"};
+    "  delmesher repair part.stl -o mended.stl --weld 1e-6 --fill\n",
+    "  delmesher remesh scan.ply -o light.stl --tolerance 1e-3d\n"};
 
 // The commands, with their options.
 struct Subcommands {
-  CLI::App *mesh, *cdt, *plane, *check, *improve, *repair;
+  CLI::App *mesh, *cdt, *plane, *check, *improve, *repair, *remesh;
 
   Subcommands(CLI::App& app, Command& command, Given& given)
       : mesh(app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)")),
@@ -457,19 +478,24 @@ struct Subcommands {
         check(app.add_subcommand("check", "is this a valid surface? if not, what is wrong?")),
         improve(app.add_subcommand(
             "improve", "fewer and better tetrahedra of a mesh, its boundary kept exactly")),
-        repair(app.add_subcommand("repair", "mend a surface where that is safe")) {
+        repair(app.add_subcommand("repair", "mend a surface where that is safe")),
+        remesh(app.add_subcommand("remesh",
+                                  "another surface within a tolerance: few, round triangles")) {
     add_mesh(*mesh, command, given);
     add_cdt(*cdt, command, given);
     add_plane(*plane, command, given);
     add_improve(*improve, command, given);
     add_check(*check, command, given);
     add_repair(*repair, command, given);
+    add_remesh(*remesh, command, given);
     for (std::size_t i = 0; i < all().size(); ++i) {
       all()[i]->footer(std::string("Examples:\n") + kExamplesOf[i] + kExitCodes);
     }
   }
 
-  std::array<CLI::App*, 6> all() const { return {mesh, cdt, plane, check, improve, repair}; }
+  std::array<CLI::App*, 7> all() const {
+    return {mesh, cdt, plane, check, improve, repair, remesh};
+  }
   // The one that was given.
   Job job() const {
     return plane->parsed()     ? Job::plane
@@ -477,6 +503,7 @@ struct Subcommands {
            : check->parsed()   ? Job::check
            : improve->parsed() ? Job::improve
            : repair->parsed()  ? Job::repair
+           : remesh->parsed()  ? Job::remesh
                                : Job::mesh;
   }
 };

@@ -11,15 +11,15 @@
 
 namespace delmesher::cli {
 
-enum class Job : std::uint8_t { mesh, cdt, plane, check, improve, repair };
+enum class Job : std::uint8_t { mesh, cdt, plane, check, improve, repair, remesh };
 
 // Exit codes of all programs of the project.
 inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kLimit = 5,
                      kInternal = 6, kInterrupted = 130;
 
 // In the order of Job.
-using JobOptions =
-    std::variant<Options, CdtOptions, PlaneOptions, CheckOptions, ImproveOptions, RepairOptions>;
+using JobOptions = std::variant<Options, CdtOptions, PlaneOptions, CheckOptions, ImproveOptions,
+                                RepairOptions, RemeshOptions>;
 
 struct Command {
   std::string input;

@@ -66,6 +66,7 @@ TEST(Arguments, DefaultsAreTheLibrarys) {
   expect_defaults({"check", "i.off"}, CheckOptions());
   expect_defaults({"improve", "i.mesh", "-o", "o.mesh"}, ImproveOptions());
   expect_defaults({"repair", "i.off", "-o", "o.off"}, RepairOptions());
+  expect_defaults({"remesh", "i.off", "-o", "o.off"}, RemeshOptions());
 }
 
 // A command with each option of a job alone: an option of the table is read, has the effect of its
@@ -84,7 +85,8 @@ std::vector<JobCase> job_cases() {
           job_case<PlaneOptions>({"plane", "i.poly", "-o", "o.vtu"}),
           job_case<CheckOptions>({"check", "i.off"}),
           job_case<ImproveOptions>({"improve", "i.mesh", "-o", "o.mesh"}),
-          job_case<RepairOptions>({"repair", "i.off", "-o", "o.off"})};
+          job_case<RepairOptions>({"repair", "i.off", "-o", "o.off"}),
+          job_case<RemeshOptions>({"remesh", "i.off", "-o", "o.off"})};
 }
 
 TEST(Arguments, EveryOptionOfTheTableIsReadAlone) {
@@ -101,12 +103,15 @@ TEST(Arguments, EveryOptionOfTheTableIsReadAlone) {
         if (!text.empty()) arguments.push_back(text);
       }
       if (name == "size_growth") arguments.insert(arguments.end(), {"--size-field", "s.txt"});
+      const bool of_mesh = job.arguments[0] == "mesh";
+      if (name == "feature" && of_mesh) arguments.insert(arguments.end(), {"--tolerance", "1"});
       const Parsed parsed = parse(arguments);
       ASSERT_TRUE(parsed.run) << parsed.error;
       const auto given = std::visit([](const auto& options) { return options::values_of(options); },
                                     parsed.command.options);
       ASSERT_EQ(given.size(), job.values.size());
       for (std::size_t k = 0; k < given.size(); ++k) {
+        if (name == "feature" && of_mesh && given[k].text.name == "tolerance") continue;
         EXPECT_EQ(given[k].value, k == n ? value : job.values[k].value)
             << job.arguments[0] << " --" << name << ": " << given[k].text.name;
       }
@@ -138,6 +143,19 @@ TEST(Arguments, OptionsOfOtherJobsAreRefused) {
     }
   }
   EXPECT_GT(refused, 60U);
+}
+
+TEST(Arguments, ToleranceIsALengthOrAShareOfTheDiagonal) {
+  const auto tolerance = [](const std::string& text) {
+    return options_of(parse({"i.off", "-o", "o.mesh", "--tolerance", text})).tolerance;
+  };
+  EXPECT_EQ(tolerance("0.25"), 0.25);
+  EXPECT_EQ(tolerance("1e-3d"), -1e-3);
+  EXPECT_EQ(tolerance("0.1d"), -0.1);
+  for (const char* wrong : {"0", "-1", "0d", "-1e-3d", "0.2d", "d", "1e-3e", "nan", "1 d"}) {
+    expect_usage_error({"i.off", "-o", "o.mesh", "--tolerance", wrong}, "--tolerance");
+  }
+  expect_usage_error({"i.off", "-o", "o.mesh", "--feature", "30"}, "without --tolerance");
 }
 
 TEST(Arguments, FilesAndSwitchesOfTheCommandLine) {
@@ -307,7 +325,7 @@ TEST(Arguments, HelpFitsAScreen) {
   const std::string help = parse({"--help"}).out;
   EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 24) << help;
   EXPECT_NE(help.find("delmesher part.stl -o part.msh"), std::string::npos);
-  for (const char* command : {"", "mesh", "cdt", "plane", "check", "improve", "repair"}) {
+  for (const char* command : {"", "mesh", "cdt", "plane", "check", "improve", "repair", "remesh"}) {
     std::vector<std::string> arguments = {"--help"};
     if (*command != '\0') arguments.insert(arguments.begin(), command);
     const std::string text = parse(arguments).out;

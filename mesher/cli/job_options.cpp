@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 
 #include "mesher/io/text.h"
@@ -24,12 +25,17 @@ std::string number_text(double number) {
   return text;
 }
 
+// "1e-3d" of a number with Unit::length_or_share.
+std::string share_text(double share) {
+  return number_text(-share) + "d";
+}
+
 std::string value_text(const Value& option) {
   for (const options::Word& word : option.text.words) {
     if (!word.word.empty() && word.value == option.value) return std::string(word.word);
   }
   if (option.kind == Kind::on_off) return option.value != 0 ? "on" : "off";
-  return number_text(option.value);
+  return option.value < 0 ? share_text(option.value) : number_text(option.value);
 }
 
 // "above 0, at most 30"
@@ -48,6 +54,19 @@ Bounds bounds_of(const Value& option) {
     bounds.above_low = true;
   }
   return bounds;
+}
+
+// A length, or a share of the diagonal.
+CLI::Validator length_or_share(const Bounds& bounds) {
+  return CLI::Validator(
+      [bounds](std::string& text) -> std::string {
+        const std::optional<double> value = length_or_share_of(text);
+        if (!value) return "not a length, nor a fraction of the diagonal such as 1e-3d: " + text;
+        return *value != 0 && bounds.allow(*value) && (*value > 0 || text.back() == 'd')
+                   ? ""
+                   : "out of range: " + text + " (above 0, at most " + share_text(bounds.low) + ")";
+      },
+      "NUMBER");
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
@@ -118,7 +137,9 @@ void add_option(CLI::App& app, GivenOptions& given, const Value& option) {
       argument, [&given, name](const std::string& text) { given[name] = text; }, help_of(option));
   const bool numeric = option.kind == Kind::number || option.kind == Kind::count;
   const std::vector<std::string> words = words_of(option);
-  if (numeric) {
+  if (option.text.unit == options::Unit::length_or_share) {
+    added->check(length_or_share(option.text.bounds));
+  } else if (numeric) {
     added->check(number_within(bounds_of(option), option.kind == Kind::count, words));
   } else if (option.kind != Kind::sources) {
     added->check(CLI::IsMember(words));
@@ -178,6 +199,13 @@ void add_preset(CLI::App& app, GivenOptions& given, const std::vector<Value>& de
 
 }  // namespace
 
+std::optional<double> length_or_share_of(std::string_view text) {
+  if (const double share = options::share_of(text); share != 0) return share;
+  double value = 0;
+  if (io::parse_double(text, value) != io::NumberStatus::ok) return std::nullopt;
+  return value;
+}
+
 void add_options(CLI::App& app, GivenOptions& given, const std::vector<Value>& defaults,
                  const std::vector<Value>& preset) {
   for (const Value& option : defaults) {
@@ -219,6 +247,9 @@ double value_given(const GivenOptions& given, const Value& value) {
   if (value.kind == Kind::on_off) return found->second == "on" ? 1 : 0;
   for (const options::Word& word : value.text.words) {
     if (word.word == found->second) return word.value;
+  }
+  if (value.text.unit == options::Unit::length_or_share) {
+    return length_or_share_of(found->second).value_or(0);
   }
   return number_of(found->second);
 }

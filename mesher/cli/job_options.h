@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ void add_options(CLI::App& app, GivenOptions& given, const std::vector<options::
 void add_number(CLI::App& app, GivenOptions& given, const std::string& name,
                 const std::string& help, const options::Bounds& bounds, bool whole);
 double number_of(const std::string& text);
+// Of an option with Unit::length_or_share; empty if the text is neither.
+std::optional<double> length_or_share_of(std::string_view text);
 
 // The value that an option was given; `value` where it was not.
 double value_given(const GivenOptions& given, const options::Value& value);

@@ -19,8 +19,8 @@ int parse_and_run(int argc, char** argv) {
   std::fputs(parsed.out.c_str(), stdout);
   std::fputs(parsed.error.c_str(), stderr);
   if (!parsed.run) return parsed.exit_code;
-  const cli::Library library = {tetrahedralize, constrained_delaunay, check_surface,
-                                triangulate_polygon, improve_mesh};
+  const cli::Library library = {tetrahedralize,      constrained_delaunay, check_surface,
+                                triangulate_polygon, improve_mesh,         remesh_surface};
   cli::Streams streams;
   streams.out = [](const std::string& text) { std::fputs(text.c_str(), stdout); };
   streams.error = [](const std::string& text) { std::fputs(text.c_str(), stderr); };

@@ -69,7 +69,8 @@ Json value_json(const options::Value& option) {
 }
 
 Json parameters_json(const Command& command) {
-  static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check", "improve", "repair"};
+  static constexpr const char* kJobs[] = {"mesh",    "cdt",    "plane", "check",
+                                          "improve", "repair", "remesh"};
   Json parameters = {{"job", kJobs[static_cast<std::size_t>(command.job())]}};
   const auto values =
       std::visit([](const auto& job) { return options::values_of(job); }, command.options);
@@ -237,6 +238,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"spared", s.diagonals_spared},
                     {"given_up", s.planar_given_up},
                     {"limit", limit_name(s.planar_limit)}};
+  json["remesh"] = {{"tolerance", s.tolerance}, {"triangles", s.remeshed_triangles}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
@@ -305,6 +307,11 @@ std::string planar_text(const std::string& file, const Statistics& s, bool as_gi
   return facets + std::to_string(s.facets) + within + "; vertices are up to " +
          number_short(s.planar_deviation / diagonal) +
          " of it from their planes (--planar 0 keeps all facets)";
+}
+
+std::string remeshed_text(std::size_t given, std::size_t remeshed, double tolerance) {
+  return std::to_string(remeshed) + " triangles in place of " + std::to_string(given) +
+         ", within " + number_short(tolerance);
 }
 
 std::string kept_text(const std::string& file, const Statistics& s) {

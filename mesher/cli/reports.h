@@ -32,6 +32,8 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts);
 
 // The line about a surface that is kept because bounded angles would be heavy.
+// "970 triangles in place of 7000, within 0.01"
+std::string remeshed_text(std::size_t given, std::size_t remeshed, double tolerance);
 std::string kept_text(const std::string& file, const Statistics& s);
 
 // The names of regions: of the solids that they lie in.

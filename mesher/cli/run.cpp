@@ -29,6 +29,8 @@ class Runner : RunSteps {
   int label_by_angle();
   int check();
   int mesh();
+  int remesh();
+  int write_remeshed(const RemeshResult& result);
   int write_surface_defects(const SurfaceReport& report) const;
   void count_defects(Status& status) const;
   io::WriteStatus write_all(io::OutputSet& outputs, const Result& result) const;
@@ -142,6 +144,10 @@ int Runner::mesh() {
   if (!result.regions.empty()) {
     remark(regions_text(command_.input, result.regions, region_names(result.regions, names_)));
   }
+  if (s.remeshed_triangles > 0) {
+    remark(command_.input + ": " +
+           remeshed_text(surface_.triangles.size(), s.remeshed_triangles, s.tolerance));
+  }
   if (s.ladder[Rung::keep_surface] > 0) remark(kept_text(command_.input, s));
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
@@ -166,6 +172,32 @@ int Runner::mesh() {
                  }});
 }
 
+int Runner::write_remeshed(const RemeshResult& result) {
+  io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
+  io::WriteStatus status;
+  for (const std::string& output : command_.outputs) {
+    status = warned(io::write_surface(outputs, output, result.surface, names_));
+    if (!status.ok()) return fail(kUnreadable, status.error);
+  }
+  status = commit(outputs);
+  if (!status.ok()) return fail(kUnreadable, status.error);
+  say(command_.outputs.front() + ": " +
+      remeshed_text(surface_.triangles.size(), result.surface.triangles.size(), result.tolerance));
+  return kDone;
+}
+
+int Runner::remesh() {
+  RemeshResult result =
+      call(std::get<RemeshOptions>(command_.options),
+           [&](const RemeshOptions& o) { return library_.remesh_surface(surface_, o); });
+  note_interruption(result.status);
+  count_defects(result.status);
+  for (const std::string& warning : result.warnings) warn(warning);
+  if (result.status.ok()) return write_remeshed(result);
+  return fail_input(exit_code_of(result.status.code), result.status.message);
+}
+
 int Runner::run() {
   note_files_in_place(false);
   try {
@@ -176,10 +208,11 @@ int Runner::run() {
     }
     if (command_.job() == Job::repair) return run_repair(command_, library_, streams_);
     if (command_.job() == Job::improve) return run_improve(command_, library_, streams_);
-    int code = check_outputs(io::mesh_files_of);
+    const bool remeshes = command_.job() == Job::remesh;
+    int code = check_outputs(remeshes ? io::boundary_files_of : io::mesh_files_of);
     if (code == kDone) code = read();
     if (code != kDone) return code;
-    return command_.job() == Job::check ? check() : mesh();
+    return remeshes ? remesh() : command_.job() == Job::check ? check() : mesh();
   } catch (const std::bad_alloc&) {
     return fail_input(kLimit, "out of memory");
   } catch (const std::exception& error) {

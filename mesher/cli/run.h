@@ -16,6 +16,7 @@ struct Library {
   std::function<SurfaceReport(const Surface&, const CheckOptions&)> check_surface;
   std::function<PlaneResult(const PlanarGraph&, const PlaneOptions&)> triangulate_polygon = nullptr;
   std::function<Result(const TetMesh&, const ImproveOptions&)> improve_mesh = nullptr;
+  std::function<RemeshResult(const Surface&, const RemeshOptions&)> remesh_surface = nullptr;
 };
 
 struct Streams {

@@ -274,13 +274,13 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
-      "final planar filter prediction chamfer guarantee ladder limits steiner rounding "
+      "final planar remesh filter prediction chamfer guarantee ladder limits steiner rounding "
       "predicates ");
   EXPECT_EQ(keys(json["predicates"]), "filter support extended fixed exact symbolic ");
   EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
   EXPECT_EQ(keys(json["phases_seconds"]),
-            "read check filter chamfer delaunay segments facets refine enrich classify improve "
-            "round write ");
+            "read check remesh filter chamfer delaunay segments facets refine enrich classify "
+            "improve round write ");
   const std::string mesh =
       "vertices tetrahedra interior_tetrahedra min_face_angle max_face_angle min_dihedral "
       "max_dihedral mean_min_face_angle mean_max_face_angle mean_min_dihedral mean_max_dihedral "

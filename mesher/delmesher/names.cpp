@@ -6,8 +6,8 @@ namespace delmesher {
 
 const char* phase_name(Phase phase) {
   static constexpr const char* kNames[kPhaseCount] = {
-      "read",   "check",  "filter",   "chamfer", "delaunay", "segments", "facets",
-      "refine", "enrich", "classify", "improve", "round",    "write"};
+      "read",   "check",  "remesh", "filter",   "chamfer", "delaunay", "segments",
+      "facets", "refine", "enrich", "classify", "improve", "round",    "write"};
   return kNames[static_cast<std::size_t>(phase)];
 }
 

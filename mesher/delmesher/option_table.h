@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -32,7 +34,15 @@ struct Bounds {
 inline constexpr double kNoBound = HUGE_VAL;
 inline constexpr Bounds kAnyLength{.high = kNoBound}, kDegreesToRight{.high = 90};
 
-enum class Unit : std::uint8_t { none, degrees, length, seconds };
+enum class Unit : std::uint8_t {
+  none,
+  degrees,
+  length,
+  seconds,
+  // A length, or minus a fraction of the diagonal of the bounding box: on the command line with a d
+  // behind it.
+  length_or_share
+};
 
 // A word that stands for a value.
 struct Word {
@@ -64,6 +74,28 @@ struct Row {
 inline constexpr std::string_view kPaper = "paper_";
 
 inline constexpr std::tuple kTable{
+    Row({.name = "tolerance",
+         .help = "the surface may be another one so near to it, in both directions: a length, or a "
+                 "fraction of the diagonal as in 1e-3d",
+         .bounds = {.low = -0.1, .high = kNoBound},
+         .unit = Unit::length_or_share,
+         .zero_is_none = true,
+         .promised = true,
+         .with_kept_surface = true},
+        &Options::tolerance),
+    Row({.name = "tolerance",
+         .help = "how far the surfaces may be from each other, in both directions: a length, or a "
+                 "fraction of the diagonal as in 1e-3d",
+         .bounds = {.low = -0.1, .high = kNoBound},
+         .unit = Unit::length_or_share},
+        &RemeshOptions::tolerance),
+    Row({.name = "feature",
+         .help = "with a tolerance: edges that bend by more stay lines",
+         .bounds = kDegreesToRight,
+         .unit = Unit::degrees,
+         .promised = true,
+         .with_kept_surface = true},
+        &Options::feature, &RemeshOptions::feature),
     Row({.name = "surface",
          .help = "split: add vertices where angles call for them; keep: each triangle is one face, "
                  "for few tetrahedra without a bound on angles; auto: keep where split takes more "
@@ -193,18 +225,24 @@ inline constexpr std::tuple kTable{
          .zero_is_none = true,
          .promised = true},
         &ImproveOptions::max_edge),
+    Row({.name = "max_edge",
+         .help = "split longer edges",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true},
+        &RemeshOptions::max_edge),
     Row({.name = "size_field",
          .help = "smaller edges in places: lines X Y Z SIZE, or a .pos of Gmsh",
          .unit = Unit::length,
          .promised = true,
          .with_kept_surface = true},
-        &Options::size_field, &ImproveOptions::size_field),
+        &Options::size_field, &ImproveOptions::size_field, &RemeshOptions::size_field),
     Row({.name = "size_growth",
          .help = "how much larger edges may be per distance from the sources of the size field",
          .bounds = {.above_low = true},
          .promised = true,
          .with_kept_surface = true},
-        &Options::size_growth, &ImproveOptions::size_growth),
+        &Options::size_growth, &ImproveOptions::size_growth, &RemeshOptions::size_growth),
     Row({.name = "region",
          .help = "where the angle bound holds, and what is written",
          .promised = true,
@@ -387,7 +425,16 @@ bool set(JobOptions& options, std::string_view name, double value) {
   return done;
 }
 
-// The same by a word of the row.
+// "1e-3d", a fraction of the diagonal, as a number with Unit::length_or_share; 0 if it is none.
+inline double share_of(std::string_view text) {
+  double share = 0;
+  if (!text.ends_with('d')) return 0;
+  const char* const end = text.data() + text.size() - 1;
+  const auto [stop, error] = std::from_chars(text.data(), end, share);
+  return error == std::errc() && stop == end && share > 0 ? -share : 0;
+}
+
+// The same by a word of the row, or a share.
 template <class JobOptions>
 bool set(JobOptions& options, std::string_view name, std::string_view word) {
   for (const Value& option : values_of(options)) {
@@ -395,6 +442,8 @@ bool set(JobOptions& options, std::string_view name, std::string_view word) {
     for (const Word& known : option.text.words) {
       if (!word.empty() && known.word == word) return set(options, name, known.value);
     }
+    const double share = share_of(word);
+    if (option.text.unit == Unit::length_or_share && share != 0) return set(options, name, share);
   }
   return false;
 }
@@ -418,9 +467,9 @@ To taken_from(const From& from) {
 template <class JobOptions>
 void scale_lengths(JobOptions& options, int exponent) {
   for_each(options, [&]<class T>(const Text& text, T& member) {
-    if (text.unit != Unit::length) return;
+    if (text.unit != Unit::length && text.unit != Unit::length_or_share) return;
     if constexpr (kind_of<T>() == Kind::number) {
-      member = std::ldexp(member, exponent);
+      if (text.unit == Unit::length || member > 0) member = std::ldexp(member, exponent);
     } else if constexpr (kind_of<T>() == Kind::sources) {
       for (SizeSource& source : member) {
         for (double& x : source.point) x = std::ldexp(x, exponent);

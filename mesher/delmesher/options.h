@@ -35,6 +35,13 @@ enum class Regions : std::uint8_t {
 
 // Of tetrahedralize().
 struct Options : Limits {
+  // The surface that is meshed may be another one: no point of either is farther from the other,
+  // with the same topology. A length; if negative, minus a fraction of the bounding box's diagonal.
+  // 0: the surface as given.
+  double tolerance = 0;
+  // With a tolerance: edges that bend by more stay lines within it, as borders of labels and edges
+  // of other than two triangles do; where lines end, meet, or bend by as much, vertices stay.
+  double feature = 40;
   // A surface is kept with the options that have Text::with_kept_surface in option_table.h; the
   // others have to be as they are by default. `automatic` is `split` with them, with a size field,
   // and if the surface has edges above max_edge.
@@ -96,6 +103,15 @@ struct Options : Limits {
 struct CdtOptions : Limits {
   Region region = Region::hull;
   bool want_exact = false;  // fill Result::exact
+};
+
+// Of remesh_surface().
+struct RemeshOptions : Limits {
+  double tolerance = -1e-3;            // as in Options; not 0
+  double feature = 40;                 // as in Options
+  double max_edge = 0;                 // edges that are longer are split; 0: no bound
+  std::vector<SizeSource> size_field;  // as in Options
+  double size_growth = 0.3;
 };
 
 // Of improve_mesh().

@@ -18,6 +18,7 @@ enum class Region : std::uint8_t {
 enum class Phase : std::uint8_t {
   read,
   check,
+  remesh,
   filter,
   chamfer,
   delaunay,
@@ -30,7 +31,7 @@ enum class Phase : std::uint8_t {
   round,
   write
 };
-inline constexpr std::size_t kPhaseCount = 13;
+inline constexpr std::size_t kPhaseCount = 14;
 
 // Name of a phase as used by the statistics ("read", "check", ...).
 const char* phase_name(Phase phase);

@@ -34,6 +34,9 @@ struct MeshStatistics {
 struct Statistics {
   std::array<double, kPhaseCount> phase_seconds{};
   double bbox_diagonal = 0;
+  // With Options::tolerance: the length, and the triangles of the surface that was meshed.
+  double tolerance = 0;
+  std::uint64_t remeshed_triangles = 0;
   MeshStatistics refined, final;
   std::uint64_t facets = 0;  // of the surface that was meshed
   // Facets that were made planar, of more than one triangle each; and facets of the surface as

@@ -61,8 +61,8 @@ int unit_exponent(const std::vector<Point>& vertices) {
 // For models of extreme size whose numbers do not fit into other units. Where the stages steer by
 // lengths that over- or underflow, nothing is wrong but that.
 template <class Model, class JobOptions, class Run>
-Result in_given_units(const Model& model, const JobOptions& given, const Run& run) {
-  Result result = run(model, given, 0);
+auto in_given_units(const Model& model, const JobOptions& given, const Run& run) {
+  auto result = run(model, given, 0);
   if (result.status.code == StatusCode::internal_error) {
     result.status = {StatusCode::limit_reached,
                      "the model is too large or too small for double precision, and some "
@@ -74,14 +74,37 @@ Result in_given_units(const Model& model, const JobOptions& given, const Run& ru
 }
 
 // Messages about defects name coordinates.
-bool names_places(const Result& result) {
+template <class AnyResult>
+bool names_places(const AnyResult& result) {
   return result.status.code == StatusCode::invalid_surface ||
          result.status.code == StatusCode::invalid_mesh;
 }
 
+const std::vector<Point>& written(const Result& result) {
+  return result.mesh.vertices;
+}
+const std::vector<Point>& written(const RemeshResult& result) {
+  return result.surface.vertices;
+}
+
+void scale(Result& result, int exponent) {
+  for (Point& p : result.mesh.vertices) scale(p, exponent);
+  for (Point& p : result.chamfered.vertices) scale(p, exponent);
+  scale(result.exact, exponent);
+  Statistics& s = result.statistics;
+  for (double* length : {&s.bbox_diagonal, &s.tolerance, &s.max_surface_deviation,
+                         &s.planar_deviation, &s.planar_bound}) {
+    *length = std::ldexp(*length, exponent);
+  }
+}
+void scale(RemeshResult& result, int exponent) {
+  for (Point& p : result.surface.vertices) scale(p, exponent);
+  result.tolerance = std::ldexp(result.tolerance, exponent);
+}
+
 // `run` gets the exponent of its units.
 template <class Model, class JobOptions, class Run>
-Result scaled_and_back(const Model& model, const JobOptions& given, const Run& run) {
+auto scaled_and_back(const Model& model, const JobOptions& given, const Run& run) {
   const int exponent = unit_exponent(model.vertices);
   if (exponent == 0) return run(model, given, 0);
   if (exponent < kSmallest || !is_exact(model.vertices, -exponent)) {
@@ -91,19 +114,12 @@ Result scaled_and_back(const Model& model, const JobOptions& given, const Run& r
   for (Point& p : scaled.vertices) scale(p, -exponent);
   JobOptions units = given;
   options::scale_lengths(units, -exponent);
-  Result result = run(scaled, units, exponent);
+  auto result = run(scaled, units, exponent);
   // Points that become subnormal are not exact.
-  if (names_places(result) || !is_exact(result.mesh.vertices, exponent)) {
+  if (names_places(result) || !is_exact(written(result), exponent)) {
     return in_given_units(model, given, run);
   }
-  for (Point& p : result.mesh.vertices) scale(p, exponent);
-  for (Point& p : result.chamfered.vertices) scale(p, exponent);
-  scale(result.exact, exponent);
-  Statistics& s = result.statistics;
-  s.bbox_diagonal = std::ldexp(s.bbox_diagonal, exponent);
-  s.max_surface_deviation = std::ldexp(s.max_surface_deviation, exponent);
-  s.planar_deviation = std::ldexp(s.planar_deviation, exponent);
-  s.planar_bound = std::ldexp(s.planar_bound, exponent);
+  scale(result, exponent);
   return result;
 }
 
@@ -166,11 +182,11 @@ Result moved_and_back(const Surface& surface, const Options& options, Task& task
 
 // The copies, of model and options, are no part of a task: their memory is guarded here.
 template <class Run>
-Result guarded_run(const Run& run) {
+auto guarded_run(const Run& run) {
   try {
     return run();
   } catch (const std::bad_alloc&) {
-    Result result;
+    decltype(run()) result;
     result.status = {StatusCode::limit_reached, "out of memory", Limit::memory};
     return result;
   }
@@ -187,6 +203,15 @@ Result in_ordinary_units(const TetMesh& mesh, const ImproveOptions& options, Mes
     return scaled_and_back(mesh, options, [&task](const TetMesh& m, const ImproveOptions& o, int) {
       return task(m, o);
     });
+  });
+}
+
+RemeshResult in_ordinary_units(const Surface& surface, const RemeshOptions& options,
+                               RemeshTask& task) {
+  return guarded_run([&] {
+    return scaled_and_back(
+        surface, options,
+        [&task](const Surface& s, const RemeshOptions& o, int) { return task(s, o); });
   });
 }
 

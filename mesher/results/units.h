@@ -11,12 +11,15 @@ namespace delmesher::results {
 
 // The frame is in the units of the surface.
 using Task = Result(const Surface&, const Options&, const geometry::LocalFrame&);
+using RemeshTask = RemeshResult(const Surface&, const RemeshOptions&);
 using MeshTask = Result(const TetMesh&, const ImproveOptions&);
 
 // Calls `task` with surface, or mesh, and options, in other units if the model's size calls for it
 // and if that is exact for every coordinate; with surfaces moved if they are more than 2^26 times
 // their size away and if that is exact, too.
 Result in_ordinary_units(const Surface& surface, const Options& options, Task& task);
+RemeshResult in_ordinary_units(const Surface& surface, const RemeshOptions& options,
+                               RemeshTask& task);
 Result in_ordinary_units(const TetMesh& mesh, const ImproveOptions& options, MeshTask& task);
 
 }  // namespace delmesher::results

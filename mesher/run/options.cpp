@@ -64,6 +64,10 @@ std::string_view useless_if_kept(const Options& given) {
 }
 
 std::string combination_defect(const Options& given) {
+  if (given.tolerance != 0 && (given.want_exact || given.regions == Regions::all)) {
+    return given.want_exact ? "a tolerance has no exact record yet"
+                            : "regions all with a tolerance is not possible yet";
+  }
   if (given.regions == Regions::all && given.surface == SurfaceChoice::split) {
     return "--regions all needs --surface keep";
   }
@@ -77,6 +81,10 @@ std::string combination_defect(const Options& given) {
   if (useless.empty()) return {};
   return "--" + options::argument_name(useless) + " does nothing with " +
          (given.regions == Regions::all ? "--regions all" : "--surface keep");
+}
+
+std::string combination_defect(const RemeshOptions& given) {
+  return given.tolerance == 0 ? "tolerance must not be 0" : "";
 }
 
 template <class JobOptions>
@@ -121,6 +129,7 @@ template std::string options_defect(const CdtOptions&);
 template std::string options_defect(const ImproveOptions&);
 template std::string options_defect(const PlaneOptions&);
 template std::string options_defect(const CheckOptions&);
+template std::string options_defect(const RemeshOptions&);
 
 }  // namespace delmesher::run
 

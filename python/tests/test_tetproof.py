@@ -228,6 +228,37 @@ def test_names_of_regions_come_back(tmp_path):
         assert tetproof.improve(back).region_names == mesh.region_names
 
 
+def ball(n=12):
+    """A sphere of 12 n^2 triangles."""
+    points, triangles = {}, []
+    for axis in range(3):
+        for side in (0, n):
+            for i in range(n):
+                for j in range(n):
+                    quad = [np.roll([side, i + di, j + dj], axis) for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                    a, b, c, d = [points.setdefault(tuple(q), len(points)) for q in (quad if side else quad[::-1])]
+                    triangles += [(a, b, c), (a, c, d)]
+    corners = np.array(list(points), float) * 2 / n - 1
+    return corners / np.linalg.norm(corners, axis=1)[:, None], np.array(triangles)
+
+
+def test_another_surface_within_a_tolerance():
+    points, triangles = ball()
+    surface = tetproof.remesh(points, triangles, tolerance=0.02)
+    assert tetproof.check(surface).valid and len(surface.triangles) < len(triangles) / 4
+    diagonal = np.linalg.norm(np.ptp(points, axis=0))
+    share = tetproof.remesh(points, triangles, tolerance="%.17gd" % (0.02 / diagonal))
+    assert np.array_equal(share.triangles, surface.triangles)
+    mesh = tetproof.mesh(points, triangles, tolerance=0.02)
+    assert len(mesh.tetrahedra) < len(tetproof.mesh(points, triangles, surface="keep").tetrahedra) / 3
+    assert np.abs(np.linalg.norm(mesh.points[np.unique(mesh.boundary)], axis=1) - 1).max() <= 0.02
+    with pytest.raises(ValueError, match="tolerance"):
+        tetproof.remesh(points, triangles, tolerance=0)
+    with pytest.raises(ValueError, match="tolerance"):
+        tetproof.mesh(points, triangles, tolerance="2e")
+    assert "1e-3d" in tetproof.remesh.__doc__ and "'0.001d'" in tetproof.remesh.__doc__
+
+
 def test_bodies_that_share_a_wall_are_regions(tmp_path):
     points = np.array([(x, y, z) for x in (0, 1, 3) for y in (0, 1) for z in (0, 1)], float)
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

@@ -33,7 +33,7 @@ else:
 __version__ = _core.version
 __all__ = ["Defect", "Error", "Face", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh", "PlaneReport",
            "Repaired", "RepairedPlane", "Report", "Surface", "TenNodes", "cdt", "check", "check_plane", "improve", "label_by_angle", "mesh", "plane",
-           "read", "read_mesh", "repair", "repair_plane", "write"]
+           "read", "read_mesh", "remesh", "repair", "repair_plane", "write"]
 
 #: Called several times a second with the phase, the fraction done (negative: unknown) and the vertices so far; False ends the run.
 Progress = Callable[[str, float, int], Optional[bool]]
@@ -770,6 +770,31 @@ def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: floa
     result = _core.repair(*_surface(points, triangles, labels), float(weld), bool(fill))
     result["triangles"] = _signed(result["triangles"])
     return Repaired(**result, names=dict(getattr(points, "names", {})))
+
+
+@_with_options
+def remesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Union[Progress, bool, None] = None, **options: Any) -> Surface:
+    """Another surface within a tolerance of a valid one, in both directions: few and round triangles, same topology and labels.
+
+    Parameters
+    ----------
+    points, triangles, labels, progress
+        As in `mesh`.
+    **options
+
+    Raises
+    ------
+    InvalidSurface, LimitReached
+        As of `mesh`.
+    """
+    points = _read_first(points, triangles)
+    arrays = _surface(points, triangles, labels)
+    named = _options("remesh", options)
+    with _shown(progress) as shown:
+        result = _core.remesh(*arrays, named, shown)
+    _raise(result, lambda: check(*arrays[:2]))
+    return Surface(result["points"], _signed(result["triangles"]), result["labels"], dict(getattr(points, "names", {})),
+                   [_in_python(line) for line in result["warnings"]])
 
 
 @_with_options

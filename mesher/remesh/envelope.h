@@ -1,0 +1,50 @@
+// Two sets of triangles, or of segments, each within a distance of the other: one stays, the other
+// changes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/remesh/changing_box_tree.h"
+#include "mesher/remesh/coverage.h"
+
+namespace delmesher::remesh {
+
+// Law: every point of what is given is within `distance` of what is there with the same label, and
+// conversely. At first both are the same.
+class Envelope {
+ public:
+  Envelope(std::vector<Simplex> given, double distance);
+
+  // Does the law hold with those added in the place of those removed? What is added gets the next
+  // numbers, in order, if commit() follows.
+  bool allows(std::span<const std::uint32_t> removed, std::span<const Simplex> added);
+  void commit(std::span<const std::uint32_t> removed, std::span<const Simplex> added);
+
+  // Is p within the distance of what is given near those that are there?
+  bool is_near(const Vec3& p, std::span<const std::uint32_t> there) const;
+  // The point of what is given near those that are there that is nearest to p.
+  Vec3 nearest_given(const Vec3& p, std::span<const std::uint32_t> there) const;
+
+  const ChangingBoxTree& boxes() const { return there_boxes_; }
+
+ private:
+  bool is_covered_by_given(const Simplex& simplex);
+  bool still_covers(std::uint32_t given, std::span<const std::uint32_t> removed,
+                    std::span<const Simplex> added);
+  Box grown(Box box) const;
+
+  double distance_;
+  std::vector<Simplex> given_, there_;
+  BoxTree given_boxes_;
+  ChangingBoxTree there_boxes_;
+  // Which of what is there cover a given one, and conversely.
+  std::vector<std::vector<std::uint32_t>> cover_, covered_by_;
+  // Of the change that is looked at: given ones, and their new covers.
+  std::vector<std::uint32_t> affected_;
+  std::vector<std::vector<std::uint32_t>> new_cover_;
+  Coverage coverage_;
+};
+
+}  // namespace delmesher::remesh

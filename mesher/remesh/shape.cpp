@@ -1,0 +1,82 @@
+#include "mesher/remesh/shape.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace delmesher::remesh {
+
+void Quadric::add_plane(const Vec3& n, double offset, double area) {
+  a[0] += area * n[0] * n[0];
+  a[1] += area * n[0] * n[1];
+  a[2] += area * n[0] * n[2];
+  a[3] += area * n[1] * n[1];
+  a[4] += area * n[1] * n[2];
+  a[5] += area * n[2] * n[2];
+  for (std::size_t i = 0; i < 3; ++i) b[i] += area * offset * n[i];
+  c += area * offset * offset;
+  weight += area;
+}
+
+void Quadric::operator+=(const Quadric& other) {
+  for (std::size_t i = 0; i < 6; ++i) a[i] += other.a[i];
+  for (std::size_t i = 0; i < 3; ++i) b[i] += other.b[i];
+  c += other.c;
+  weight += other.weight;
+}
+
+double Quadric::at(const Vec3& p) const {
+  const Vec3 ap{a[0] * p[0] + a[1] * p[1] + a[2] * p[2], a[1] * p[0] + a[3] * p[1] + a[4] * p[2],
+                a[2] * p[0] + a[4] * p[1] + a[5] * p[2]};
+  return std::max(0.0, dot(p, ap) - 2 * dot(b, p) + c);
+}
+
+Vec3 Quadric::least(const Vec3& middle) const {
+  const double more = 1e-3 * (a[0] + a[3] + a[5]);
+  const Vec3 x{a[0] + more, a[1], a[2]}, y{a[1], a[3] + more, a[4]}, z{a[2], a[4], a[5] + more};
+  const Vec3 right = add_scaled(b, more, middle);
+  const Vec3 yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
+  const double det = dot(x, yz);
+  if (!(det > 0)) return middle;
+  Vec3 p{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    p[i] = (right[0] * yz[i] + right[1] * zx[i] + right[2] * xy[i]) / det;
+  }
+  return p;
+}
+
+std::vector<Line> lines_of(const Surface& surface, double steepest) {
+  struct Side {
+    VertexId a, b;
+    std::uint32_t triangle;
+    bool turned;
+  };
+  std::vector<Side> sides;
+  std::vector<Vec3> normals;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    const Triangle& corner = surface.triangles[t];
+    normals.push_back(normal_of(
+        {surface.vertices[corner[0]], surface.vertices[corner[1]], surface.vertices[corner[2]]}));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const VertexId a = corner[i], b = corner[(i + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), t, a > b});
+    }
+  }
+  std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.a, s.b, s.triangle); });
+  std::vector<Line> lines;
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+    while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b) ++j;
+    bool is_line = j - i != 2;
+    if (!is_line) {
+      const Side &s = sides[i], &t = sides[i + 1];
+      const Vec3 &m = normals[s.triangle], &n = normals[t.triangle];
+      const double cosine = (s.turned != t.turned ? 1 : -1) * dot(m, n);
+      is_line =
+          cosine < steepest * norm(m) * norm(n) ||
+          (!surface.labels.empty() && surface.labels[s.triangle] != surface.labels[t.triangle]);
+    }
+    if (is_line) lines.push_back({sides[i].a, sides[i].b});
+  }
+  return lines;
+}
+
+}  // namespace delmesher::remesh

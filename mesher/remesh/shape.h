@@ -1,0 +1,49 @@
+// Shapes of triangles, and where vertices of few triangles should be. In doubles: it steers, and
+// decides nothing that is promised.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "mesher/delmesher/surface.h"
+#include "mesher/geometry/vector.h"
+#include "mesher/remesh/triangle_mesh.h"
+
+namespace delmesher::remesh {
+
+using Corners = std::array<Vec3, 3>;
+
+inline Vec3 normal_of(const Corners& t) {
+  return cross(subtract(t[1], t[0]), subtract(t[2], t[0]));
+}
+
+// The sine of the smallest angle.
+inline double least_sine(const Corners& t) {
+  std::array<double, 3> side{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    side[i] = squared_norm(subtract(t[(i + 1) % 3], t[i]));
+  }
+  std::ranges::sort(side);
+  return side[1] > 0 ? norm(normal_of(t)) / std::sqrt(side[1] * side[2]) : 0;
+}
+
+// The sum of squared distances from planes, weighted by areas (Garland and Heckbert 1997).
+struct Quadric {
+  std::array<double, 6> a{};  // xx, xy, xz, yy, yz, zz
+  Vec3 b{};
+  double c = 0, weight = 0;
+
+  void add_plane(const Vec3& unit_normal, double offset, double area);
+  void operator+=(const Quadric& other);
+  double at(const Vec3& p) const;
+  // Where it is least; where many places are about as good, the one near `middle`.
+  Vec3 least(const Vec3& middle) const;
+};
+
+// The edges that bend by more than the angle of this cosine, borders of labels, and edges of other
+// than two triangles.
+std::vector<Line> lines_of(const Surface& surface, double steepest);
+
+}  // namespace delmesher::remesh
