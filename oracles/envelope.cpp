@@ -11,7 +11,9 @@
 #include "oracles/base/box_tree.h"
 #include "oracles/base/triangle_distance.h"
 #include "oracles/base/vectors.h"
+#include "oracles/shared_data.h"
 #include "oracles/surface/input_surface.h"
+#include "oracles/tolerance.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -77,7 +79,7 @@ class Farthest {
       if (share >= kLeast && share <= 1 - kLeast) at = share;
     }
     const Position cut = between(a, b, at);
-    pieces.push_back({a, cut, c});
+    pieces.push_back({a, cut, c == b ? cut : c});  // a segment ends in a corner that it has twice
     pieces.push_back({cut, b, c});
   }
 
@@ -112,7 +114,7 @@ class Farthest {
                      q = between(piece[lone], piece[last], in[lone] / (in[lone] - in[last]));
       pieces.push_back({piece[lone], p, q});
       pieces.push_back({p, piece[next], piece[last]});
-      pieces.push_back({p, piece[last], q});
+      if (piece[next] != piece[last]) pieces.push_back({p, piece[last], q});
       return true;
     }
     return false;
@@ -186,14 +188,6 @@ Extent extent_of(const Polyhedron& surface) {
   return extent;
 }
 
-// Coordinates in units of 2^exponent, in words.
-std::string place_name(const Position& p, int exponent) {
-  std::ostringstream text;
-  text << std::setprecision(12) << " at (" << std::ldexp(p[0], exponent) << ", "
-       << std::ldexp(p[1], exponent) << ", " << std::ldexp(p[2], exponent) << ")";
-  return text.str();
-}
-
 OracleReport check_distances(const Polyhedron& input, const Polyhedron& own, double allowed,
                              int exponent, double& deviation) {
   OracleReport report("envelope", "triangles");
@@ -215,17 +209,6 @@ OracleReport check_distances(const Polyhedron& input, const Polyhedron& own, dou
                 " envelopes" + place_name(worst_back, exponent));
   }
   return report;
-}
-
-// Turns the shells that are inside out: parity decides what is inside. Empty on success, else why
-// the surface bounds no solid.
-std::string turn_outwards(Polyhedron& surface) {
-  ExactPoints points;
-  InputSurface turned;
-  std::string why = points.assign(surface.vertices);
-  if (why.empty()) why = turned.assign(surface, points);
-  if (why.empty()) surface.triangles = turned.triangles();
-  return why;
 }
 
 // Is a point inside, by the parity of a ray? Decided in doubles, where they certainly do.
@@ -432,6 +415,17 @@ int ordinary_exponent(Polyhedron& input, Polyhedron& own) {
   return exponent;
 }
 
+// Without the tetrahedra that the file calls outside, whose regions are not 1.
+MeshFile solid_of(MeshFile mesh) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const bool inside = mesh.regions.size() != mesh.tetrahedra.size() || mesh.regions[t] == 1;
+    if (inside) mesh.tetrahedra[kept++] = mesh.tetrahedra[t];
+  }
+  mesh.tetrahedra.resize(kept);
+  return mesh;
+}
+
 void broken(VerifyReport& report, const std::string& oracle, const std::string& finding) {
   OracleReport said(oracle);
   said.checked = 1;
@@ -441,6 +435,22 @@ void broken(VerifyReport& report, const std::string& oracle, const std::string& 
 }
 
 }  // namespace
+
+std::string place_name(const Position& p, int exponent) {
+  std::ostringstream text;
+  text << std::setprecision(12) << " at (" << std::ldexp(p[0], exponent) << ", "
+       << std::ldexp(p[1], exponent) << ", " << std::ldexp(p[2], exponent) << ")";
+  return text.str();
+}
+
+std::string turn_outwards(Polyhedron& surface) {
+  ExactPoints points;
+  InputSurface turned;
+  std::string why = points.assign(surface.vertices);
+  if (why.empty()) why = turned.assign(surface, points);
+  if (why.empty()) surface.triangles = turned.triangles();
+  return why;
+}
 
 double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough,
                 Position* place) {
@@ -463,10 +473,19 @@ Polyhedron boundary_of(const MeshFile& mesh) {
       ++at->second.first;
     }
   }
+  std::map<Face, std::int32_t> listed;
+  if (mesh.labels.size() == mesh.boundary.size()) {
+    for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
+      Face key = mesh.boundary[i];
+      sort_face(key);
+      listed.emplace(key, mesh.labels[i]);
+    }
+  }
   Polyhedron surface;
   std::map<Index, Index> number;
   for (const auto& [key, seen] : faces) {
     if (seen.first != 1) continue;
+    if (const auto at = listed.find(key); at != listed.end()) surface.labels.push_back(at->second);
     std::array<Index, 3> triangle;
     for (std::size_t c = 0; c < 3; ++c) {
       const Index v = seen.second[c];
@@ -476,6 +495,7 @@ Polyhedron boundary_of(const MeshFile& mesh) {
     }
     surface.triangles.push_back(triangle);
   }
+  if (surface.labels.size() != surface.triangles.size()) surface.labels.clear();
   return surface;
 }
 
@@ -487,12 +507,24 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
     broken(report, "complex", "a tetrahedron names no vertex, or a vertex no place");
     return {};
   }
+  const double tolerance = options.promised.tolerance;
+  if (tolerance != 0 && !(share >= kLeastEnvelope)) {
+    broken(report, "promise", "a tolerance is at least 1e-7 of the diagonal");
+    return {};
+  }
   MeshFile bare;
   bare.vertices = mesh.vertices;
   bare.tetrahedra = mesh.tetrahedra;
   bare.lists_boundary = false;
   bare.either_orientation = mesh.either_orientation;
-  Polyhedron own = boundary_of(bare);
+  const bool hull = tolerance != 0 && options.promised.region == delmesher::Region::hull;
+  if (hull) {
+    bare.regions = mesh.regions;
+    bare.inside = mesh.inside;
+    bare.names_sides = mesh.names_sides;
+  }
+  Polyhedron own = boundary_of(hull ? solid_of(mesh) : mesh);
+  const std::vector<std::int32_t> labels = std::exchange(own.labels, {});
   if (own.triangles.empty()) {
     broken(report, "own-surface", "the tetrahedra have no boundary");
     return {};
@@ -504,8 +536,10 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
       std::ranges::adjacent_find(input.labels, std::ranges::not_equal_to()) != input.labels.end();
   if (promise.keep) unproven.emplace_back("--surface keep");
   if (promise.keep) promise.task = Task::mesh;
-  if (promise.label_by_angle > 0 || differ) unproven.emplace_back("labels");
+  const bool labels_compared = tolerance != 0 && mesh.lists_boundary && !mesh.labels.empty();
+  if ((promise.label_by_angle > 0 || differ) && !labels_compared) unproven.emplace_back("labels");
   promise.keep = false;
+  promise.tolerance = 0;
   promise.label_by_angle = promise.planar = 0;
   as_given.declared_deviation = 0;
   if (const std::string why = verify(own, bare, nullptr, as_given, report); !why.empty()) {
@@ -515,10 +549,21 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);
   if (std::string why = turn_outwards(given); !why.empty()) return why;
-  const double diagonal = box_of(given.vertices).diagonal(), allowed = share * diagonal;
-  for (OracleReport oracle :
-       {check_distances(given, own, allowed, exponent, report.deviation),
-        check_volumes(given, own, allowed), Sides(given, own, allowed).run(exponent, unproven)}) {
+  const double diagonal = diagonal_of(given), allowed = share * diagonal;
+  std::vector<OracleReport> oracles = {
+      check_distances(given, own, allowed, exponent, report.deviation),
+      check_volumes(given, own, allowed), Sides(given, own, allowed).run(exponent, unproven)};
+  if (tolerance != 0) {
+    // What is of no size as written bends by chance.
+    const double slab = options.promised.planar == 0 ? 0
+                        : mesh.planar_within > 0     ? mesh.planar_within
+                                                     : Promise::kAutomatic;
+    own.labels = labels;
+    std::ranges::move(check_tolerance({given, own, allowed, options.promised.feature,
+                                       slab * diagonal, exponent, labels_compared}),
+                      std::back_inserter(oracles));
+  }
+  for (OracleReport& oracle : oracles) {
     if (exponent != 0) {
       oracle.notes.push_back("lengths are in units of 2^" + std::to_string(exponent));
     }

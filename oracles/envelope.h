@@ -5,7 +5,8 @@
 // farther from the input than the envelope, nor a point of the input from it; the volumes differ by
 // at most what surfaces so near to each other can enclose; and what is farther from both surfaces
 // than the envelope is on the same side of both, in every part of space that is thicker than the
-// report says. So no crust around the input passes for the solid.
+// report says. So no crust around the input passes for the solid. With a promised tolerance also
+// what tolerance.h says.
 #pragma once
 
 #include <string>
@@ -26,7 +27,15 @@ inline constexpr double kLeastEnvelope = 1e-7;
 double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough,
                 Position* place = nullptr);
 
-// The faces of one tetrahedron, seen from outside, with the vertices that they use.
+// Coordinates in units of 2^exponent, in words.
+std::string place_name(const Position& p, int exponent);
+
+// Turns the shells that are inside out: parity decides what is inside. Empty on success, else why
+// the surface bounds no solid.
+std::string turn_outwards(Polyhedron& surface);
+
+// The faces of one tetrahedron, seen from outside, with the vertices that they use. Their labels,
+// if the file lists all of them with one.
 Polyhedron boundary_of(const MeshFile& mesh);
 
 // Empty on success, else why the input bounds no solid. `share` is the envelope, as a fraction of

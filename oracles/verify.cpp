@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracles/base/parallel.h"
+#include "oracles/envelope.h"
 #include "oracles/plan.h"
 #include "oracles/record/ordinary_units.h"
 #include "oracles/record/record_origin.h"
@@ -147,6 +148,10 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     labelled = input;
     if (std::string why = label_by_angle(*labelled, degrees); !why.empty()) return why;
     frame.input = &*labelled;
+  }
+  if (const double tolerance = options.promised.tolerance; tolerance != 0) {
+    const double share = tolerance < 0 ? -tolerance : tolerance / diagonal_of(input);
+    return verify_envelope(*frame.input, mesh, share, options, report);
   }
   const bool may_keep = frame.options.promised.may_keep;
   const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped

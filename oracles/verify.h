@@ -13,6 +13,8 @@ namespace tetproof::oracles {
 // `exact` may be null. What is expendable is given up part by part, as soon as no oracle needs it,
 // for less memory; it has to be this mesh and this record.
 //
+// With a promised tolerance the mesh is judged as envelope.h says, without a record.
+//
 // Empty on success, else why the input bounds no solid; the report is empty then.
 std::string verify(const Polyhedron& input, const MeshFile& mesh,
                    const delmesher::ExactRecord* exact, const VerifyOptions& options,

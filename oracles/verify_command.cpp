@@ -197,9 +197,8 @@ std::string verify_improved_mesh(const Arguments& arguments, VerifyReport& repor
 
 // What to do about a mesh that is wrong in nothing but that its surface is another one; else empty.
 std::string way_on(const Arguments& arguments, const VerifyReport& report) {
-  if (report.verdict != Verdict::broken || arguments.envelope > 0 || !arguments.exact.empty()) {
-    return {};
-  }
+  const bool is_own = arguments.envelope > 0 || arguments.options.promised.tolerance != 0;
+  if (report.verdict != Verdict::broken || is_own || !arguments.exact.empty()) return {};
   bool elsewhere = false;
   for (const OracleReport& oracle : report.oracles) {
     if (oracle.passed()) continue;
@@ -293,6 +292,10 @@ int run_verify(int argc, char** argv) {
   }
   if (arguments.envelope > 0 && (!surface || !arguments.exact.empty())) {
     std::fputs("tetproof: --envelope: of a mesh of a surface, and of a file alone\n", stderr);
+    return kUsage;
+  }
+  if (arguments.options.promised.tolerance != 0 && (envelope > 0 || !arguments.exact.empty())) {
+    std::fputs("tetproof: --promised: a tolerance is an envelope, of a file alone\n", stderr);
     return kUsage;
   }
   if (task == Task::improve && (arguments.stage || !arguments.exact.empty())) {

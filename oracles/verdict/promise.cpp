@@ -60,13 +60,14 @@ unsigned bit_of(Task task) {
 enum class Takes : std::uint8_t {
   nothing,
   number,
-  length,   // a number in input units
-  word,     // one of two
-  file,     // where something is written, or what something is called
-  outputs,  // the same, several times
-  sizes,    // a file that promises something: a size field
-  list,     // of choices of the paper
-  choice    // one of these: no option of its own
+  length,           // a number in input units
+  length_or_share,  // the same, or a fraction of the diagonal with a d behind it
+  word,             // one of two
+  file,             // where something is written, or what something is called
+  outputs,          // the same, several times
+  sizes,            // a file that promises something: a size field
+  list,             // of choices of the paper
+  choice            // one of these: no option of its own
 };
 
 // What an option of delmesher promises. The oracles read it on their own, from README and
@@ -94,6 +95,8 @@ constexpr Option kOptions[] = {
     {"--delta", kPlane, Takes::number, &Promise::delta, 0, 34, true},
     {"--tau", kMesh | kPlane, Takes::number, &Promise::tau, 0, 1},
     {"--planar", kMesh, Takes::number, &Promise::planar, 0, 0.01},  // or auto
+    {"--tolerance", kMesh, Takes::length_or_share, &Promise::tolerance, 0, kMost, true},
+    {"--feature", kMesh, Takes::number, &Promise::feature, 0, 90},
     {"--acute", kMesh, Takes::number, &Promise::acute, 0, 90},
     {"--acute", kPlane, Takes::number, &Promise::acute, 60, 90},
     {"--corner", kMesh, Takes::number, &Promise::corner, 0, 90},
@@ -276,6 +279,9 @@ class PromiseReader {
       std::string option = words_[next_++];
       if (std::string why = apply(std::move(option), p); !why.empty()) return why;
     }
+    if (p.tolerance != 0 && (p.all_regions || seen_.contains("--exact"))) {
+      return "--tolerance: not with --exact nor --regions all";
+    }
     if (p.keep || p.all_regions) set_kept(p);
     return {};
   }
@@ -337,6 +343,7 @@ class PromiseReader {
                (is_surface(option) ? " or auto" : "") + ", not \"" + *value_ + "\"";
       case Takes::number:
       case Takes::length:
+      case Takes::length_or_share:
         return take_number(option, p);
       default:
         put(option, true, p);
@@ -349,10 +356,15 @@ class PromiseReader {
       p.planar = Promise::kPlanarAuto;
       return {};
     }
+    constexpr double kLargestShare = 0.1;
+    std::string text = *value_;
+    const bool share = option.takes == Takes::length_or_share && text.ends_with('d');
+    if (share) text.pop_back();
     double value = 0;
-    if (!parse_number(*value_, value) || !option.allows(value)) {
+    if (!parse_number(text, value) || !option.allows(value) || (share && value > kLargestShare)) {
       return std::string(option.name) + ": \"" + *value_ + "\" is not a number that it takes";
     }
+    if (share) value = -value;
     if (const auto* number = std::get_if<double Promise::*>(&option.target)) p.** number = value;
     return {};
   }
@@ -620,6 +632,8 @@ Promise promise_of(const delmesher::Options& options) {
   p.strict = options.strict;
   p.may_keep = options.surface == delmesher::SurfaceChoice::automatic;
   p.keep = options.surface == delmesher::SurfaceChoice::keep;
+  p.tolerance = options.tolerance;
+  p.feature = options.feature;
   p.all_regions = options.regions == delmesher::Regions::all;
   if (p.keep || p.all_regions) set_kept(p);
   return p;

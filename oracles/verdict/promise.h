@@ -40,8 +40,11 @@ struct Promise {
   bool may_keep = false;  // or split: the record shows which
   // Every part of space that the triangles bound is a region of its own; the surface is kept.
   bool all_regions = false;
-  bool strict = false;        // without an exception
-  bool names = false;         // sets are called by names of another file
+  bool strict = false;  // without an exception
+  bool names = false;   // sets are called by names of another file
+  // The surface may be another one so near, in both directions: in input units, or minus a fraction
+  // of the diagonal. 0: the surface as given. Edges that bend by more degrees are lines.
+  double tolerance = 0, feature = 40;
   bool second_order = false;  // ten-node tetrahedra, in formats that have them
   // No oracle looks at these, but where one is not so the surface may not be kept.
   bool slivers = true, simplify_bridges = true, save_chamfered = false;

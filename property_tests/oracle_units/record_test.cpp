@@ -176,7 +176,7 @@ auto members(const Promise& p) {
   return std::tuple(
       std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel, p.approximate, p.improve,
                  p.region, p.chamfer_radius, p.max_edge, p.size_field.size(), p.size_growth,
-                 p.budget, p.max_vertices, p.keep, p.may_keep, p.strict),
+                 p.budget, p.max_vertices, p.keep, p.may_keep, p.strict, p.tolerance, p.feature),
       std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment, p.filter_pairs,
                  p.filter_chamfered, p.no_guard));
 }
@@ -237,6 +237,15 @@ TEST(Promises, AreRefusedByName) {
                                     {"--planar automatic", "--planar"},
                                     {"--max-edge 0", "--max-edge"},
                                     {"--max-edge -1", "--max-edge"},
+                                    {"--tolerance 0", "--tolerance"},
+                                    {"--tolerance -1", "--tolerance"},
+                                    {"--tolerance 0d", "--tolerance"},
+                                    {"--tolerance 0.11d", "--tolerance"},
+                                    {"--tolerance d", "--tolerance"},
+                                    {"--tolerance 1 --exact a", "--tolerance"},
+                                    {"--tolerance 1 --regions all", "--tolerance"},
+                                    {"cdt --tolerance 1", "--tolerance"},
+                                    {"--feature 91", "--feature"},
                                     {"--size-growth 0", "--size-growth"},
                                     {"--size-growth 1.5", "--size-growth"},
                                     {"--size-field /nowhere/a.txt", "/nowhere/a.txt"},
