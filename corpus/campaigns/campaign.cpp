@@ -343,7 +343,7 @@ class Job {
     std::vector<std::string> argv = {
         options_.self.string(), "picture", files_.input.string(), files_.mesh.string(), "--verdict",
         verdict().string(),     "-o",      picture().string()};
-    if (mesher_.envelope > 0) argv.emplace_back("--own-surface");
+    if (mesher_.own_surface()) argv.emplace_back("--own-surface");
     start(argv, options_.verify_limits);
   }
 

@@ -284,7 +284,7 @@ TEST_F(CampaignTest, VerdictsAndSidecars) {
   options_.self = self_that("true");
   options_.verify = options_.sidecars = true;
   const auto with_sidecar = [](Mesher mesher, const std::string& line) {
-    mesher.flags = "mesh";  // what the oracles hold the record to
+    mesher.promised = "mesh";  // what the oracles hold the record to
     mesher.sidecar_command = [line](const RunFiles& files) {
       return std::vector<std::string>{"/bin/sh", "-c", line, files.again.string(),
                                       files.exact.string()};

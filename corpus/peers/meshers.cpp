@@ -73,6 +73,17 @@ std::string version_of(const fs::path& program, const MesherPrograms& programs,
          ")";
 }
 
+// What --tolerance is set to; empty without it.
+std::string tolerance_of(const std::string& options) {
+  constexpr std::string_view kOption = "--tolerance";
+  const auto at = options.find(kOption);
+  if (at == std::string::npos) return {};
+  std::istringstream rest(options.substr(at + kOption.size() + 1));
+  std::string value;
+  rest >> value;
+  return value;
+}
+
 Mesher own_mesher(const std::string& name, const std::string& arguments,
                   const MesherPrograms& programs) {
   Mesher mesher;
@@ -98,6 +109,8 @@ Mesher own_mesher(const std::string& name, const std::string& arguments,
     }
     return argv;
   };
+  mesher.promised = arguments;
+  if (mesher.own_surface()) return mesher;
   mesher.sidecar_command = [program = programs.delmesher.string(),
                             words = words_of(arguments)](const RunFiles& files) {
     std::vector<std::string> argv = {program};
@@ -317,8 +330,11 @@ bool is_command(const std::string& text) {
 
 std::vector<std::string> Mesher::verify_options() const {
   if (envelope > 0) return {"--envelope", fmt::format("{}", envelope)};
-  return {"--declared-deviation", fmt::format("{}", declared_deviation), "--promised",
-          sidecar_command ? flags : "mesh --planar 0"};
+  return {"--declared-deviation", fmt::format("{}", declared_deviation), "--promised", promised};
+}
+
+bool Mesher::own_surface() const {
+  return envelope > 0 || !tolerance_of(promised).empty();
 }
 
 std::string Mesher::promise() const {
@@ -327,9 +343,10 @@ std::string Mesher::promise() const {
     text << "envelope " << envelope;
   } else if (declared_deviation > 0) {
     text << "within " << declared_deviation;
-  } else if (sidecar_command && flags.starts_with("mesh") &&
-             flags.find("--planar 0") == std::string::npos &&
-             flags.find("--preset paper") == std::string::npos) {
+  } else if (own_surface()) {
+    text << "tolerance " << tolerance_of(promised);
+  } else if (promised.starts_with("mesh") && promised.find("--planar 0") == std::string::npos &&
+             promised.find("--preset paper") == std::string::npos) {
     text << "planar but for rounding";
   } else {
     text << "exact";

@@ -36,17 +36,22 @@ struct Mesher {
   double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
   // Not 0: its boundary is any surface that is within this fraction of the diagonal of the input.
   double envelope = 0;
+  std::string promised = "mesh --planar 0";  // what the oracles are told otherwise
   ExitCodes exit_codes = ExitCodes::unknown;
   std::function<std::vector<std::string>(const RunFiles&)> command;
   // Writes the mesh once more, to `again`, with the sidecar beside it; null if it knows none.
   std::function<std::vector<std::string>(const RunFiles&)> sidecar_command;
+
+  // Is a surface of its own promised?
+  bool own_surface() const;
 
   // The options of `tetproof verify` by which its meshes are held to what it promises. Our mesher
   // is held to the options that it is called with. Other meshers are not asked for planar facets:
   // their surface is the one given, but for the deviation that they declare.
   std::vector<std::string> verify_options() const;
 
-  // In words, for tables: "exact", "planar but for rounding", "within 1e-08", "envelope 0.001".
+  // In words, for tables: "exact", "planar but for rounding", "within 1e-08", "envelope 0.001",
+  // "tolerance 1e-3d".
   std::string promise() const;
 };
 

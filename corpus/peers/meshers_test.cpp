@@ -211,6 +211,10 @@ TEST_F(Meshers, WhatEachPromises) {
   EXPECT_EQ(promise("delmesher+planar-0"), "exact");
   EXPECT_EQ(promise("delmesher-e4"), "exact");
   EXPECT_EQ(promise("cdt"), "exact");
+  const Mesher near = make_mesher("near=delmesher:mesh --tolerance 1e-3d", programs_);
+  EXPECT_EQ(near.promise(), "tolerance 1e-3d");
+  EXPECT_EQ(near.verify_options().back(), "mesh --tolerance 1e-3d");
+  EXPECT_TRUE(near.own_surface() && !near.sidecar_command);  // it has no record
   EXPECT_EQ(promise("tetgen"), "within 1e-08");
   EXPECT_EQ(promise("tetgen-T0"), "exact");
   EXPECT_EQ(promise("g=cmd,envelope=1e-3:p {in} {out.msh}"), "envelope 0.001");
