@@ -365,4 +365,30 @@ Finding default_pipeline_holds(const Surface& surface) {
   return whole_pipeline_holds(surface, options, kept);
 }
 
+// Features of a few roundings are left out: their meshes may be inverted as written.
+Finding tolerance_holds(const Surface& surface) {
+  judging({&too_many_vertices, &too_precise, &left_by_rounding});
+  if (below_8_ulp(surface)) {
+    left_by_rounding.take();
+    return {};
+  }
+  const std::uint64_t hash = hash_of(surface);
+  constexpr double kTolerances[] = {-1e-1, -1e-2, -1e-3, -1e-5};
+  Options options;
+  options.tolerance = kTolerances[hash % 4];
+  options.max_vertices = kMostVertices;
+  if ((hash & 4) != 0) options.surface = delmesher::SurfaceChoice::keep;
+  if ((hash & 24) == 0) options.max_edge = largest_coordinate(surface.vertices) / 4;
+  const Result result = delmesher::tetrahedralize(surface, options);
+  if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
+  if (!result.status.ok()) return "status: " + result.status.message;
+  oracles::VerifyOptions wanted;
+  wanted.promised = oracles::promise_of(options);
+  oracles::VerifyReport report;
+  const std::string refusal =
+      oracles::verify(as_polyhedron(surface), as_file(result.mesh), nullptr, wanted, report);
+  if (!refusal.empty()) return "oracles refuse: " + refusal;
+  return report.any_failed() ? first_failure(report) : "";
+}
+
 }  // namespace tetproof::fuzz

@@ -58,6 +58,9 @@ Finding filter_holds(const delmesher::Surface& surface);
 // The refined mesh is Delaunay, keeps the angle bound, and ends.
 Finding refinement_holds(const delmesher::Surface& surface);
 
+// Meshes within a tolerance pass the oracles.
+Finding tolerance_holds(const delmesher::Surface& surface);
+
 // The whole pipeline passes all oracles, exactly and as written.
 Finding pipeline_holds(const delmesher::Surface& surface);
 
