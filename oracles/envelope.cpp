@@ -517,6 +517,10 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   bare.tetrahedra = mesh.tetrahedra;
   bare.lists_boundary = false;
   bare.either_orientation = mesh.either_orientation;
+  if (tolerance != 0) {
+    bare.edge_nodes = mesh.edge_nodes;
+    bare.has_second_order = mesh.has_second_order;
+  }
   const bool hull = tolerance != 0 && options.promised.region == delmesher::Region::hull;
   if (hull) {
     bare.regions = mesh.regions;

@@ -54,11 +54,13 @@ void measure(const Polyhedron& surface, double slab, std::vector<Edge>& edges) {
   std::vector<std::pair<Position, double>> normals;  // with what they may be turned by
   for (const auto& [a, b, c] : surface.triangles) {
     const Position &p = surface.vertices[a], &q = surface.vertices[b], &r = surface.vertices[c];
-    const Position normal = cross(minus(q, p), minus(r, p));
+    Position normal = cross(minus(q, p), minus(r, p));
+    const double size = length(normal);
     const double longest =
         std::max({quick_distance(p, q), quick_distance(q, r), quick_distance(r, p)});
-    const double height = length(normal) / longest;
+    const double height = size / longest;
     const double turned = 2 * (reach + 8 * 0x1p-52 * longest) / height;
+    for (double& x : normal) x /= size;
     normals.emplace_back(normal, turned * 180 / std::numbers::pi);
   }
   for (Edge& edge : edges) {
