@@ -1,5 +1,6 @@
 #include "mesher/remesh/remesh.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "mesher/remesh/coarsening.h"
@@ -9,9 +10,21 @@
 namespace delmesher::remesh {
 namespace {
 
-constexpr double kLeastTolerance = 1e-7;  // of the diagonal: below, roundings would count
+// Of the diagonal, and of the largest coordinate.
+constexpr double kLeastTolerance = 1e-7, kLeastShare = 1e-9;
 constexpr int kRounds = 6;
 constexpr double kWorthwhile = 0.98;  // a round that leaves more triangles is the last
+
+// Roundings must be less than 2^-20 of the tolerance (coverage.h).
+std::string tolerance_defect(const Surface& surface, double tolerance, double diagonal) {
+  double largest = 0;
+  for (const Vec3& p : surface.vertices) {
+    largest = std::max(largest, geometry::largest_component(p));
+  }
+  if (tolerance >= kLeastTolerance * diagonal && tolerance >= kLeastShare * largest) return {};
+  return "tolerance must be at least 1e-7 of the diagonal of the surface, and 1e-9 of its distance "
+         "from the origin";
+}
 
 void change(State& state, Control& control) {
   for (int round = 0; round < kRounds; ++round) {
@@ -39,9 +52,9 @@ Remeshed remesh(const Surface& surface, const RemeshGoals& given, const LocalFra
   RemeshGoals goals = given;
   if (goals.tolerance < 0) goals.tolerance *= -result.diagonal;
   result.tolerance = goals.tolerance;
-  if (!(goals.tolerance >= kLeastTolerance * result.diagonal)) {
-    result.status = {StatusCode::invalid_options,
-                     "tolerance must be at least 1e-7 of the diagonal of the surface"};
+  std::string defect = tolerance_defect(surface, goals.tolerance, result.diagonal);
+  if (!defect.empty()) {
+    result.status = {StatusCode::invalid_options, std::move(defect)};
     return result;
   }
   control.enter(Phase::remesh);

@@ -218,6 +218,13 @@ TEST(Remesh, RejectsWhatIsNotValid) {
   EXPECT_EQ(remeshed(box(2), {.tolerance = 1e-9}).status.code, StatusCode::invalid_options);
 }
 
+// Far from the origin doubles are too coarse for any tolerance.
+TEST(Remesh, RejectsWhatRoundingsExceed) {
+  EXPECT_TRUE(remeshed(box(2, {1e6, 0, 0}, {1e6 + 1, 1, 1}), {.tolerance = 0.01}).status.ok());
+  EXPECT_EQ(remeshed(box(2, {1e8, 0, 0}, {1e8 + 1, 1, 1}), {.tolerance = 0.01}).status.code,
+            StatusCode::invalid_options);
+}
+
 // The fraction of the diagonal that a negative tolerance is.
 TEST(Remesh, ToleranceMayBeAFraction) {
   const Remeshed share = remeshed(ball(6, 1), {.tolerance = -0.01}),
