@@ -10,6 +10,9 @@
 namespace delmesher {
 namespace {
 
+// As in the other drivers: policies see the shared folders.
+using namespace policies;  // NOLINT(google-build-using-namespace)
+
 RemeshResult run_remeshing(const Surface& surface, const RemeshOptions& options) {
   RemeshResult result;
   Control control(options);

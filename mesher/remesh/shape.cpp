@@ -44,37 +44,34 @@ Vec3 Quadric::least(const Vec3& middle) const {
   return p;
 }
 
-std::vector<Line> lines_of(const Surface& surface, double steepest) {
-  struct Side {
-    VertexId a, b;
-    std::uint32_t triangle;
-    bool turned;
-  };
+std::vector<Side> sides_of(std::span<const Triangle> triangles) {
   std::vector<Side> sides;
-  std::vector<Vec3> normals;
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-    const Triangle& corner = surface.triangles[t];
-    normals.push_back(normal_of(
-        {surface.vertices[corner[0]], surface.vertices[corner[1]], surface.vertices[corner[2]]}));
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const VertexId a = corner[i], b = corner[(i + 1) % 3];
+      const VertexId a = triangles[t][i], b = triangles[t][(i + 1) % 3];
       sides.push_back({std::min(a, b), std::max(a, b), t, a > b});
     }
   }
   std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.a, s.b, s.triangle); });
+  return sides;
+}
+
+std::vector<Line> lines_of(const Surface& surface, double steepest) {
+  const auto normal = [&](const Side& side) {
+    const auto& [a, b, c] = surface.triangles[side.triangle];
+    return normal_of({surface.vertices[a], surface.vertices[b], surface.vertices[c]});
+  };
+  const auto differ = [&](const Side& s, const Side& t) {
+    return !surface.labels.empty() && surface.labels[s.triangle] != surface.labels[t.triangle];
+  };
+  const std::vector<Side> sides = sides_of(surface.triangles);
   std::vector<Line> lines;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-    while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b) ++j;
-    bool is_line = j - i != 2;
-    if (!is_line) {
-      const Side &s = sides[i], &t = sides[i + 1];
-      const Vec3 &m = normals[s.triangle], &n = normals[t.triangle];
-      const double cosine = (s.turned != t.turned ? 1 : -1) * dot(m, n);
-      is_line =
-          cosine < steepest * norm(m) * norm(n) ||
-          (!surface.labels.empty() && surface.labels[s.triangle] != surface.labels[t.triangle]);
-    }
-    if (is_line) lines.push_back({sides[i].a, sides[i].b});
+    while (j < sides.size() && sides[j].is_beside(sides[i])) ++j;
+    const Side &s = sides[i], &t = sides[j - 1];
+    const bool is_line = j - i != 2 || differ(s, t) ||
+                         cosine_of_bend(normal(s), s.turned, normal(t), t.turned) < steepest;
+    if (is_line) lines.push_back({s.a, s.b});
   }
   return lines;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "mesher/delmesher/surface.h"
@@ -41,6 +42,24 @@ struct Quadric {
   // Where it is least; where many places are about as good, the one near `middle`.
   Vec3 least(const Vec3& middle) const;
 };
+
+// An edge of a triangle, whose ends are in ascending order; turned: the triangle has them in the
+// other one.
+struct Side {
+  VertexId a, b;
+  std::uint32_t triangle;
+  bool turned;
+
+  bool is_beside(const Side& other) const { return a == other.a && b == other.b; }
+};
+
+// Of all triangles; those of an edge follow each other.
+std::vector<Side> sides_of(std::span<const Triangle> triangles);
+
+// The cosine of the bend between triangles with these normals that have a side in common.
+inline double cosine_of_bend(const Vec3& m, bool m_is_turned, const Vec3& n, bool n_is_turned) {
+  return (m_is_turned != n_is_turned ? 1 : -1) * dot(m, n) / (norm(m) * norm(n));
+}
 
 // The edges that bend by more than the angle of this cosine, borders of labels, and edges of other
 // than two triangles.

@@ -155,32 +155,18 @@ bool State::is_line_with(const Patch& patch, VertexId a, VertexId b) const {
 
 // The sharpest bends at edges of the triangles, which are removed or added by the patch.
 State::Bends State::bends(const std::vector<Triangle>& triangles, const Patch& patch) const {
-  struct Side {
-    VertexId a, b;
-    std::size_t triangle;
-    bool turned;
-  };
-  std::vector<Side> sides;
-  std::vector<Vec3> normals;
-  for (const Triangle& t : triangles) {
-    normals.push_back(normal_of(at(t)));
-    for (std::size_t i = 0; i < 3; ++i) {
-      const VertexId a = t[i], b = t[(i + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), normals.size() - 1, a > b});
-    }
-  }
-  std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.a, s.b, s.triangle); });
   Bends found;
+  const auto normal = [&](const Side& side) { return normal_of(at(triangles[side.triangle])); };
   const auto see = [&](const Side& s, const Vec3& n, bool turned) {
-    const Vec3& m = normals[s.triangle];
-    const double cosine = (s.turned != turned ? 1 : -1) * dot(m, n) / (norm(m) * norm(n));
     double& least = is_line_with(patch, s.a, s.b) ? found.of_lines : found.of_others;
+    const double cosine = cosine_of_bend(normal(s), s.turned, n, turned);
     if (!(cosine >= least)) least = cosine;
   };
+  const std::vector<Side> sides = sides_of(triangles);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& s = sides[i];
-    if (i + 1 < sides.size() && sides[i + 1].a == s.a && sides[i + 1].b == s.b) {
-      see(s, normals[sides[i + 1].triangle], sides[i + 1].turned);
+    if (i + 1 < sides.size() && sides[i + 1].is_beside(s)) {
+      see(s, normal(sides[i + 1]), sides[i + 1].turned);
       ++i;
       continue;
     }
