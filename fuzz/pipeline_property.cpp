@@ -380,13 +380,13 @@ Finding tolerance_holds(const Surface& surface) {
   if ((hash & 4) != 0) options.surface = delmesher::SurfaceChoice::keep;
   if ((hash & 24) == 0) options.max_edge = largest_coordinate(surface.vertices) / 4;
   const Result result = delmesher::tetrahedralize(surface, options);
-  if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
-  if (!result.status.ok()) return "status: " + result.status.message;
-  // Far from the origin vertices are rounded by as much.
-  if (result.statistics.tolerance < 0x1p-46 * largest_coordinate(surface.vertices)) {
+  // Far from the origin vertices are rounded by as much; such tolerances are refused.
+  if (result.statistics.tolerance < 0x1p-39 * largest_coordinate(surface.vertices)) {
     within_roundings.take();
     return {};
   }
+  if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
+  if (!result.status.ok()) return "status: " + result.status.message;
   oracles::VerifyOptions wanted;
   wanted.promised = oracles::promise_of(options);
   oracles::VerifyReport report;

@@ -83,9 +83,11 @@ class Farthest {
     pieces.push_back({cut, b, c});
   }
 
-  // A piece in the plane of the triangle is cut along the line of a side that it crosses. So where
-  // two surfaces are in one place there are few pieces, however small the precision is.
+  // A piece near the plane of the triangle is cut along the line of a side that it crosses. So
+  // where two surfaces are in one place, or nearly, there are few pieces, however small the
+  // precision is.
   bool cut(const Corners& piece, Index near, std::vector<Corners>& pieces) const {
+    constexpr double kNearPlane = 8;
     const Corners triangle = corners_of(to_, near);
     const Position normal = cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
     const double reach = bound() / 2;
@@ -97,7 +99,7 @@ class Farthest {
       return height;
     };
     for (const double height : heights(normal, triangle[0])) {
-      if (!(std::fabs(height) <= reach)) return false;
+      if (!(std::fabs(height) <= kNearPlane * reach)) return false;
     }
     for (std::size_t side = 0; side < 3; ++side) {
       const Position& from = triangle[side];

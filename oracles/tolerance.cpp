@@ -184,6 +184,10 @@ OracleReport check_labels(const WithinTolerance& s) {
   }
   std::map<std::int32_t, Polyhedron> given = by_label(s.input), made = by_label(s.own);
   for (const auto& [label, part] : made) given.try_emplace(label);
+  if (given.size() == 1 && made.size() == 1) {
+    report.notes.emplace_back("one label: its distances are those of `envelope`");
+    return report;
+  }
   for (const auto& [label, part] : given) {
     const std::string name = " with label " + std::to_string(label);
     compare(made[label], part, s, "triangles of the mesh" + name, "those of the input", report);

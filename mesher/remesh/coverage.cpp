@@ -85,8 +85,7 @@ struct Coverage::Polygon {
   }
 };
 
-Coverage::Coverage(double distance)
-    : distance_(distance * (1 - 0x1p-20)), squared_(distance_ * distance_) {}
+Coverage::Coverage(double distance) : distance_(distance), squared_(distance_ * distance_) {}
 
 void Coverage::clear(bool many) {
   candidates_.clear();

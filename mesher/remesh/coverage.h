@@ -3,8 +3,8 @@
 // What is within a distance of one simplex is convex. So a convex polygon whose corners are within
 // it lies there. A polygon that is near no single simplex is cut along the sides of the nearest
 // one, which leaves few pieces however small the distance is; "yes" has a simplex for each piece.
-// In doubles: pieces are off by a few roundings, and `distance` is taken 2^-20 too small, so it
-// must be well above 2^-30 of the coordinates.
+// In doubles: pieces are off by a few roundings of the coordinates, so what is asked for has to be
+// less by more than that than what is promised.
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ std::vector<Simplex> flat_grid(int n) {
 }
 
 bool covers(double distance, const std::vector<Simplex>& candidates, const Simplex& simplex) {
-  Coverage coverage(distance);
+  Coverage coverage(distance * (1 - 0x1p-20));
   for (std::uint32_t i = 0; i < candidates.size(); ++i) coverage.add(i, candidates[i]);
   return coverage.covers(simplex, candidates.size(), kNoMore);
 }

@@ -11,18 +11,19 @@ namespace delmesher::remesh {
 namespace {
 
 // Of the diagonal, and of the largest coordinate.
-constexpr double kLeastTolerance = 1e-7, kLeastShare = 1e-9;
+constexpr double kLeastTolerance = 1e-7, kLeastShare = 1e-12;
 constexpr int kRounds = 6;
 constexpr double kWorthwhile = 0.98;  // a round that leaves more triangles is the last
 
-// Roundings must be less than 2^-20 of the tolerance (coverage.h).
+// Roundings have to be far less than the tolerance.
 std::string tolerance_defect(const Surface& surface, double tolerance, double diagonal) {
   double largest = 0;
   for (const Vec3& p : surface.vertices) {
     largest = std::max(largest, geometry::largest_component(p));
   }
   if (tolerance >= kLeastTolerance * diagonal && tolerance >= kLeastShare * largest) return {};
-  return "tolerance must be at least 1e-7 of the diagonal of the surface, and 1e-9 of its distance "
+  return "tolerance must be at least 1e-7 of the diagonal of the surface, and 1e-12 of its "
+         "distance "
          "from the origin";
 }
 

@@ -40,6 +40,14 @@ double cosine_of(double degrees) {
   return std::sqrt(predicates::cosine_squared(degrees));
 }
 
+// What roundings may be off by is left out.
+double reach_of(const Surface& surface, double tolerance) {
+  const Box box = Box::around(surface.vertices);
+  const double largest =
+      std::max(geometry::largest_component(box.lo), geometry::largest_component(box.hi));
+  return tolerance - std::max(0x1p-20 * tolerance, 0x1p-48 * largest);
+}
+
 }  // namespace
 
 State::State(const Surface& surface, const RemeshGoals& goals, const LocalFrame& frame)
@@ -52,8 +60,9 @@ State::State(const Surface& surface, const std::vector<Line>& lines, const Remes
       steepest_(cosine_of(goals.feature)),
       points_(points_of(surface)),
       mesh_(surface.triangles, surface.labels, lines, surface.vertices.size()),
-      envelope_(triangles_of(surface), goals.tolerance),
-      line_envelope_(segments_of(surface, lines), goals.tolerance),
+      reach_(reach_of(surface, goals.tolerance)),
+      envelope_(triangles_of(surface), reach_),
+      line_envelope_(segments_of(surface, lines), reach_),
       embedding_(mesh_, envelope_.boxes(), points_, predicates_),
       corners_(surface.vertices.size()),
       quadric_(surface.vertices.size()) {
@@ -264,8 +273,7 @@ VertexId State::collapse(VertexId a, VertexId b) {
 VertexId State::collapse_to(VertexId a, VertexId b, VertexId p) {
   std::vector<Vec3> corners = corners_[a];
   corners.insert(corners.end(), corners_[b].begin(), corners_[b].end());
-  const double reach = goals_.tolerance * (1 - 0x1p-20);
-  if (std::ranges::any_of(corners, [&](const Vec3& c) { return distance(c, at(p)) > reach; })) {
+  if (std::ranges::any_of(corners, [&](const Vec3& c) { return distance(c, at(p)) > reach_; })) {
     return kNone;
   }
   const std::optional<Patch> patch = collapse_patch(mesh_, a, b, p);

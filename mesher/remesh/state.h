@@ -83,6 +83,7 @@ class State {
   Vec3 origin_{};  // of the quadrics
   double diagonal_ = 0;
   TriangleMesh mesh_;
+  const double reach_;  // what distances are held to
   Envelope envelope_, line_envelope_;
   Embedding embedding_;
   // By vertex: the corners of the input that it stands for, and planes that it should be near.
