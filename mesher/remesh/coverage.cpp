@@ -5,7 +5,7 @@
 namespace delmesher::remesh {
 namespace {
 
-constexpr int kDepth = 12;
+constexpr int kDepth = 64;
 constexpr std::size_t kMostCorners = 16;
 // Pieces per candidate: beyond that the answer is no.
 constexpr std::size_t kMostPieces = 8;
