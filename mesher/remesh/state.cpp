@@ -58,6 +58,7 @@ State::State(const Surface& surface, const std::vector<Line>& lines, const Remes
     : goals_(goals),
       frame_(frame),
       steepest_(cosine_of(goals.feature)),
+      flattest_(std::sqrt((1 + steepest_) / 2)),
       points_(points_of(surface)),
       mesh_(surface.triangles, surface.labels, lines, surface.vertices.size()),
       reach_(reach_of(surface, goals.tolerance)),
@@ -163,19 +164,26 @@ bool State::is_line_with(const Patch& patch, VertexId a, VertexId b) const {
 }
 
 // The sharpest bends at edges of the triangles, which are removed or added by the patch.
-State::Bends State::bends(const std::vector<Triangle>& triangles, const Patch& patch) const {
+State::Bends State::bends(const std::vector<Triangle>& triangles,
+                          const std::vector<std::int32_t>& labels, const Patch& patch,
+                          bool added) const {
   Bends found;
   const auto normal = [&](const Side& side) { return normal_of(at(triangles[side.triangle])); };
-  const auto see = [&](const Side& s, const Vec3& n, bool turned) {
-    double& least = is_line_with(patch, s.a, s.b) ? found.of_lines : found.of_others;
+  const auto see = [&](const Side& s, const Vec3& n, bool turned, std::int32_t label) {
+    const bool is_of_line = added ? is_line_with(patch, s.a, s.b) : is_line(s.a, s.b);
+    double& least = is_of_line ? found.of_lines : found.of_others;
     const double cosine = cosine_of_bend(normal(s), s.turned, n, turned);
     if (!(cosine >= least)) least = cosine;
+    if (is_of_line && labels[s.triangle] == label && !(cosine <= found.flattest_line)) {
+      found.flattest_line = cosine;
+    }
   };
   const std::vector<Side> sides = sides_of(triangles);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& s = sides[i];
     if (i + 1 < sides.size() && sides[i + 1].is_beside(s)) {
-      see(s, normal(sides[i + 1]), sides[i + 1].turned);
+      const Side& t = sides[i + 1];
+      see(s, normal(t), t.turned, labels[t.triangle]);
       ++i;
       continue;
     }
@@ -183,21 +191,29 @@ State::Bends State::bends(const std::vector<Triangle>& triangles, const Patch& p
       if (std::ranges::find(patch.removed, t) != patch.removed.end()) continue;
       const Triangle& other = mesh_.triangle(t);
       const auto first = static_cast<std::size_t>(std::ranges::find(other, s.a) - other.begin());
-      see(s, normal_of(at(other)), other[(first + 1) % 3] != s.b);
+      see(s, normal_of(at(other)), other[(first + 1) % 3] != s.b, mesh_.label(t));
     }
   }
   return found;
 }
 
-// Nothing bends more than it may, or than something did before.
+// Nothing bends more than it may, or than something did before; and lines do not become flat.
 bool State::bends_no_more(const Patch& patch) const {
-  const Bends after = bends(patch.added, patch);
-  if (after.of_others >= steepest_ && after.of_lines >= kSharp) return true;
+  const Bends after = bends(patch.added, patch.labels, patch, true);
+  if (after.of_others >= steepest_ && after.of_lines >= kSharp &&
+      after.flattest_line <= flattest_) {
+    return true;
+  }
   std::vector<Triangle> removed;
-  for (const std::uint32_t t : patch.removed) removed.push_back(mesh_.triangle(t));
-  const Bends before = bends(removed, patch);
+  std::vector<std::int32_t> labels;
+  for (const std::uint32_t t : patch.removed) {
+    removed.push_back(mesh_.triangle(t));
+    labels.push_back(mesh_.label(t));
+  }
+  const Bends before = bends(removed, labels, patch, false);
   return after.of_others >= std::min(steepest_, before.of_others) &&
-         after.of_lines >= std::min(kSharp, before.of_lines);
+         after.of_lines >= std::min(kSharp, before.of_lines) &&
+         after.flattest_line <= std::max(flattest_, before.flattest_line);
 }
 
 bool State::makes_long_edges(const Patch& patch) const {

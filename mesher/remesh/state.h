@@ -52,9 +52,9 @@ class State {
   Surface surface() const;
 
  private:
-  // Cosines of the sharpest bends.
+  // Cosines of the sharpest bends, and of the flattest one of a line within a label.
   struct Bends {
-    double of_lines = 1, of_others = 1;
+    double of_lines = 1, of_others = 1, flattest_line = -1;
   };
 
   State(const Surface& surface, const std::vector<Line>& lines, const RemeshGoals& goals,
@@ -68,7 +68,8 @@ class State {
   double sine_of_removed(const Patch& patch) const;
   double sine_of_added(const Patch& patch) const;
   bool is_line_with(const Patch& patch, VertexId a, VertexId b) const;
-  Bends bends(const std::vector<Triangle>& triangles, const Patch& patch) const;
+  Bends bends(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& labels,
+              const Patch& patch, bool added) const;
   bool bends_no_more(const Patch& patch) const;
   bool makes_long_edges(const Patch& patch) const;
   bool makes_rounder(const Patch& patch) const;
@@ -77,7 +78,8 @@ class State {
 
   const RemeshGoals goals_;
   const LocalFrame frame_;
-  const double steepest_;  // cosine of the bend of what is no line
+  // Cosines: of the bend of what is no line, and of the least bend of what is to stay one.
+  const double steepest_, flattest_;
   PointStore points_;
   Predicates predicates_{points_};
   Vec3 origin_{};  // of the quadrics
