@@ -73,15 +73,13 @@ bool is_flat(const SurfaceTopology& topology, Predicates& predicates) {
 // Powers of shorter lengths are no doubles, and a refinement that strives for them need not end.
 Status sizes_are_doubles(const Surface& surface, const Session& s) {
   constexpr double kShortest = 1e-50;  // of the diagonal
+  if (s.options.size_field.empty()) return {};
+  const Box box = Box::around(surface.vertices);
   for (std::size_t n = 0; n < s.options.size_field.size(); ++n) {
     const auto& [place, size] = s.options.size_field[n];
     if (!(size < kShortest * s.diagonal)) continue;
     Vec3 nearest = place;  // in the box
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::ranges::minmax(surface.vertices, {}, [k](const auto& v) { return v[k]; });
-      nearest[k] = std::clamp(place[k], low[k], high[k]);
-    }
+    for (std::size_t k = 0; k < 3; ++k) nearest[k] = std::clamp(place[k], box.lo[k], box.hi[k]);
     if (s.sizes.at(nearest) < kShortest * s.diagonal) {
       return {StatusCode::limit_reached,
               "source " + std::to_string(n) +

@@ -20,7 +20,6 @@ class RepairRunner : RunSteps {
 
  private:
   int read();
-  int write();
   int conclude_with(const SurfaceReport& report);
 
   const RepairOptions& options_ = std::get<RepairOptions>(command_.options);
@@ -44,18 +43,6 @@ int RepairRunner::read() {
     return fail_input(kFailed, "no triangle is left, so nothing is written");
   }
   return read_beside(names_, surface_.labels);
-}
-
-int RepairRunner::write() {
-  io::OutputSet outputs(set_temporaries);
-  outputs.make_folders();
-  io::WriteStatus status;
-  for (const std::string& output : command_.outputs) {
-    status = warned(io::write_surface(outputs, output, surface_, names_));
-    if (!status.ok()) return fail(kUnreadable, status.error);
-  }
-  status = commit(outputs);
-  return status.ok() ? kDone : fail(kUnreadable, status.error);
 }
 
 int RepairRunner::conclude_with(const SurfaceReport& report) {
@@ -90,7 +77,7 @@ int RepairRunner::run() {
   if (!report.status.ok() && report.status.code != StatusCode::invalid_surface) {
     return fail_input(exit_code_of(report.status.code), report.status.message);
   }
-  code = write();
+  code = write_surfaces(surface_, names_);
   return code == kDone ? conclude_with(report) : code;
 }
 

@@ -30,7 +30,6 @@ class Runner : RunSteps {
   int check();
   int mesh();
   int remesh();
-  int write_remeshed(const RemeshResult& result);
   int write_surface_defects(const SurfaceReport& report) const;
   void count_defects(Status& status) const;
   io::WriteStatus write_all(io::OutputSet& outputs, const Result& result) const;
@@ -172,21 +171,6 @@ int Runner::mesh() {
                  }});
 }
 
-int Runner::write_remeshed(const RemeshResult& result) {
-  io::OutputSet outputs(set_temporaries);
-  outputs.make_folders();
-  io::WriteStatus status;
-  for (const std::string& output : command_.outputs) {
-    status = warned(io::write_surface(outputs, output, result.surface, names_));
-    if (!status.ok()) return fail(kUnreadable, status.error);
-  }
-  status = commit(outputs);
-  if (!status.ok()) return fail(kUnreadable, status.error);
-  say(command_.outputs.front() + ": " +
-      remeshed_text(surface_.triangles.size(), result.surface.triangles.size(), result.tolerance));
-  return kDone;
-}
-
 int Runner::remesh() {
   RemeshResult result =
       call(std::get<RemeshOptions>(command_.options),
@@ -194,8 +178,13 @@ int Runner::remesh() {
   note_interruption(result.status);
   count_defects(result.status);
   for (const std::string& warning : result.warnings) warn(warning);
-  if (result.status.ok()) return write_remeshed(result);
-  return fail_input(exit_code_of(result.status.code), result.status.message);
+  if (!result.status.ok()) {
+    return fail_input(exit_code_of(result.status.code), result.status.message);
+  }
+  if (const int code = write_surfaces(result.surface, names_); code != kDone) return code;
+  say(command_.outputs.front() + ": " +
+      remeshed_text(surface_.triangles.size(), result.surface.triangles.size(), result.tolerance));
+  return kDone;
 }
 
 int Runner::run() {

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "mesher/delmesher/option_table.h"
+#include "mesher/io/write_mesh.h"
 
 namespace delmesher::cli {
 namespace {
@@ -159,6 +160,18 @@ int RunSteps::write_defects(const std::string& text, const std::string& what) co
   if (!status.ok()) return fail(kUnreadable, status.error);
   say(command_.defects_file + ": " + what);
   return kDone;
+}
+
+int RunSteps::write_surfaces(const Surface& surface, const io::LabelNames& names) const {
+  io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
+  io::WriteStatus status;
+  for (const std::string& output : command_.outputs) {
+    status = warned(io::write_surface(outputs, output, surface, names));
+    if (!status.ok()) return fail(kUnreadable, status.error);
+  }
+  status = commit(outputs);
+  return status.ok() ? kDone : fail(kUnreadable, status.error);
 }
 
 io::WriteStatus RunSteps::commit(io::OutputSet& outputs) {

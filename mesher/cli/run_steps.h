@@ -75,6 +75,8 @@ class RunSteps {
   static io::WriteStatus commit(io::OutputSet& outputs);
   // Writes --defects, and says what is in it and what opens it. The exit code.
   int write_defects(const std::string& text, const std::string& what) const;
+  // Writes the outputs of a job that ends with a surface. The exit code.
+  int write_surfaces(const Surface& surface, const io::LabelNames& names) const;
   // Warns of what the format of a file written cannot hold.
   io::WriteStatus warned(io::WriteStatus status) const {
     for (const std::string& warning : status.warnings) warn(warning);

@@ -5,12 +5,10 @@
 namespace delmesher::remesh {
 namespace {
 
-// Is one of the added triangles, or lines, there twice?
-template <class Cells>
-bool repeats(Cells cells) {
-  for (auto& cell : cells) std::ranges::sort(cell);
-  std::ranges::sort(cells);
-  return std::adjacent_find(cells.begin(), cells.end()) != cells.end();
+bool repeats(std::vector<Triangle> triangles) {
+  for (Triangle& t : triangles) std::ranges::sort(t);
+  std::ranges::sort(triangles);
+  return std::adjacent_find(triangles.begin(), triangles.end()) != triangles.end();
 }
 
 // The ends of the edge have no neighbours in common but those of its triangles, and no edges

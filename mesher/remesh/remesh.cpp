@@ -1,6 +1,5 @@
 #include "mesher/remesh/remesh.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "mesher/remesh/coarsening.h"
@@ -17,14 +16,10 @@ constexpr double kWorthwhile = 0.98;  // a round that leaves more triangles is t
 
 // Roundings have to be far less than the tolerance.
 std::string tolerance_defect(const Surface& surface, double tolerance, double diagonal) {
-  double largest = 0;
-  for (const Vec3& p : surface.vertices) {
-    largest = std::max(largest, geometry::largest_component(p));
-  }
+  const double largest = largest_coordinate(surface);
   if (tolerance >= kLeastTolerance * diagonal && tolerance >= kLeastShare * largest) return {};
   return "tolerance must be at least 1e-7 of the diagonal of the surface, and 1e-12 of its "
-         "distance "
-         "from the origin";
+         "distance from the origin";
 }
 
 void change(State& state, Control& control) {

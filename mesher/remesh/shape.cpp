@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mesher/geometry/box_tree.h"
+
 namespace delmesher::remesh {
 
 void Quadric::add_plane(const Vec3& n, double offset, double area) {
@@ -42,6 +44,11 @@ Vec3 Quadric::least(const Vec3& middle) const {
     p[i] = (right[0] * yz[i] + right[1] * zx[i] + right[2] * xy[i]) / det;
   }
   return p;
+}
+
+double largest_coordinate(const Surface& surface) {
+  const geometry::Box box = geometry::Box::around(surface.vertices);
+  return std::max(geometry::largest_component(box.lo), geometry::largest_component(box.hi));
 }
 
 std::vector<Side> sides_of(std::span<const Triangle> triangles) {

@@ -43,6 +43,9 @@ struct Quadric {
   Vec3 least(const Vec3& middle) const;
 };
 
+// Without the sign.
+double largest_coordinate(const Surface& surface);
+
 // An edge of a triangle, whose ends are in ascending order; turned: the triangle has them in the
 // other one.
 struct Side {

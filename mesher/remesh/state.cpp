@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace delmesher::remesh {
 namespace {
@@ -42,10 +41,7 @@ double cosine_of(double degrees) {
 
 // What roundings may be off by is left out.
 double reach_of(const Surface& surface, double tolerance) {
-  const Box box = Box::around(surface.vertices);
-  const double largest =
-      std::max(geometry::largest_component(box.lo), geometry::largest_component(box.hi));
-  return tolerance - std::max(0x1p-20 * tolerance, 0x1p-48 * largest);
+  return tolerance - std::max(0x1p-20 * tolerance, 0x1p-48 * largest_coordinate(surface));
 }
 
 }  // namespace
@@ -90,7 +86,7 @@ void State::measure_planes() {
     for (std::size_t i = 0; i < 3; ++i) {
       const VertexId a = mesh_.triangle(t)[i], b = mesh_.triangle(t)[(i + 1) % 3];
       quadric_[a] += quadric;
-      if (mesh_.line_at(a, b) == kNone) continue;
+      if (!is_line(a, b)) continue;
       const Vec3 along = subtract(corners[(i + 1) % 3], corners[i]), across = cross(unit, along);
       const double length = norm(across);
       if (!(length > 0)) continue;
@@ -158,7 +154,7 @@ double State::sine_of_added(const Patch& patch) const {
 }
 
 bool State::is_line_with(const Patch& patch, VertexId a, VertexId b) const {
-  return mesh_.line_at(a, b) != kNone || std::ranges::any_of(patch.added_lines, [&](const Line& l) {
+  return is_line(a, b) || std::ranges::any_of(patch.added_lines, [&](const Line& l) {
            return (l[0] == a && l[1] == b) || (l[0] == b && l[1] == a);
          });
 }
@@ -241,9 +237,14 @@ bool State::apply(const Patch& patch) {
   return true;
 }
 
-double State::error(VertexId a, VertexId b, const Vec3& place) const {
+Quadric State::of_both(VertexId a, VertexId b) const {
   Quadric both = quadric_[a];
   both += quadric_[b];
+  return both;
+}
+
+double State::error(VertexId a, VertexId b, const Vec3& place) const {
+  const Quadric both = of_both(a, b);
   return both.at(subtract(place, origin_)) / (both.weight * goals_.tolerance * goals_.tolerance);
 }
 
@@ -262,10 +263,8 @@ std::vector<Vec3> State::places(VertexId a, VertexId b) const {
   if (found.size() < 2) return found;
   if (error(a, b, found[1]) < error(a, b, found[0])) std::swap(found[0], found[1]);
   if (error(a, b, found[0]) <= kNothing) return found;
-  Quadric both = quadric_[a];
-  both += quadric_[b];
   const Vec3 p = subtract(at(a), origin_), q = subtract(at(b), origin_);
-  const Vec3 best = both.least(add_scaled(p, 0.5, subtract(q, p)));
+  const Vec3 best = of_both(a, b).least(add_scaled(p, 0.5, subtract(q, p)));
   found.insert(found.begin(), geometry::add(best, origin_));
   return found;
 }
@@ -296,8 +295,7 @@ VertexId State::collapse_to(VertexId a, VertexId b, VertexId p) {
   if (!patch || patch->added.empty()) return kNone;
   if (sine_of_added(*patch) < std::min(kAccepted, sine_of_removed(*patch))) return kNone;
   if (makes_long_edges(*patch) || !envelope_.is_near(at(p), patch->removed)) return kNone;
-  Quadric both = quadric_[a];
-  both += quadric_[b];
+  const Quadric both = of_both(a, b);
   if (!apply(*patch)) return kNone;
   quadric_[p] = both;
   corners_[p] = std::move(corners);
@@ -311,8 +309,7 @@ VertexId State::split(const Line& edge, double share) {
     points_.pop_back();
     return kNone;
   }
-  quadric_[p] = quadric_[a];
-  quadric_[p] += quadric_[b];
+  quadric_[p] = of_both(a, b);
   return p;
 }
 

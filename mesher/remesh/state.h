@@ -73,6 +73,7 @@ class State {
   bool bends_no_more(const Patch& patch) const;
   bool makes_long_edges(const Patch& patch) const;
   bool makes_rounder(const Patch& patch) const;
+  Quadric of_both(VertexId a, VertexId b) const;
   bool may_vanish(VertexId a, VertexId b) const;
   bool apply(const Patch& patch);
 

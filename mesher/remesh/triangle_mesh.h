@@ -39,7 +39,6 @@ class TriangleMesh {
   std::uint32_t triangles() const { return static_cast<std::uint32_t>(triangles_.size()); }
   std::uint32_t lines() const { return static_cast<std::uint32_t>(lines_.size()); }
   bool has_triangle(std::uint32_t t) const { return triangles_[t][0] != kNone; }
-  bool has_line(std::uint32_t l) const { return lines_[l][0] != kNone; }
   std::size_t count() const { return count_; }
 
   // The triangles and lines at a vertex, in the order in which they came.
