@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 #include "mesher/base/face_key.h"
 #include "mesher/base/numbering.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/tetmesh/mesh_topology.h"
 
 namespace delmesher::improve {
 namespace {
@@ -182,39 +182,26 @@ class Checker {
     }
   }
 
-  // Unites the corners at a vertex across all faces: where it can move, one class has to be left.
+  // Where a vertex can move, its star has to be all of its tetrahedra.
   void check_vertex_stars() {
-    const std::vector<Tet>& tetrahedra = result_.mesh.tetrahedra;
-    std::vector<std::uint32_t> parent(faces_.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t c) {
-      while (parent[c] != c) c = parent[c] = parent[parent[c]];
-      return c;
-    };
-    const auto corner = [&](std::uint32_t side, VertexId v) {
-      const Tet& t = tetrahedra[side / 4];
-      return side / 4 * 4 +
-             static_cast<std::uint32_t>(std::find(t.begin(), t.end(), v) - t.begin());
-    };
+    std::vector<Face>().swap(faces_);  // gone before the topology, which takes more memory
+    const ConformingMesh& mesh = result_.mesh;
+    const MeshTopology topology(mesh.tetrahedra, mesh.region, mesh.boundary,
+                                given_.vertices.size());
     std::vector<std::uint8_t> fixed(given_.vertices.size(), 0);
-    for (std::size_t n = 0; n < faces_.size(); ++n) {
-      for (const VertexId v : faces_[n].key) {
-        if (faces_[n].kept) fixed[v] = 1;
-        if (n == 0 || faces_[n].key != faces_[n - 1].key) continue;
-        parent[root(corner(faces_[n].side, v))] = root(corner(faces_[n - 1].side, v));
-      }
+    for (const SurfaceFace& face : mesh.boundary) {
+      for (const VertexId v : face.vertices) fixed[v] = 1;
     }
-    std::vector<std::uint32_t> found(given_.vertices.size(), kNone);
-    for (TetId t = 0; t < tetrahedra.size(); ++t) {
-      for (std::uint32_t i = 0; i < 4; ++i) {
-        const VertexId v = tetrahedra[t][i];
-        const std::uint32_t r = root(4 * t + i);
-        if (found[v] == kNone) found[v] = r;
-        if (found[v] != r && fixed[v] == 0) {
-          refuse("the tetrahedra at vertex ", number(v),
-                 " are not connected by faces: ", number(found[v] / 4), " and ", number(t));
-        }
-      }
+    for (const VertexId v : topology.pinched()) {
+      if (fixed[v] != 0) continue;
+      std::vector<TetId> star;
+      topology.star(v, star);
+      std::ranges::sort(star);
+      TetId other = 0;
+      while (topology.index_of(other, v) < 0 || std::ranges::binary_search(star, other)) ++other;
+      refuse("the tetrahedra at vertex ", number(v),
+             " are not connected by faces: ", number(std::min(other, star[0])), " and ",
+             number(std::max(other, star[0])));
     }
   }
 

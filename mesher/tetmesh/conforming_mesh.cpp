@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
-#include "mesher/base/disjoint_sets.h"
 #include "mesher/base/face_key.h"
-#include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/tetmesh/mesh_topology.h"
 
 namespace delmesher::tetmesh {
 
@@ -23,39 +23,11 @@ void keep_inside(ConformingMesh& mesh) {
 }
 
 bool touches_itself(const ConformingMesh& mesh) {
-  struct Face {
-    std::array<VertexId, 3> key;
-    std::array<std::uint32_t, 3> corner;  // 4 * tetrahedron + index, by the vertices of the key
-  };
-  std::vector<Face> faces;
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    if (mesh.region[t] == kOutside) continue;
-    const Tet& v = mesh.tetrahedra[t];
-    for (const auto& f : kFace) {
-      Face face{undirected_face(v[f[0]], v[f[1]], v[f[2]]), {}};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto i = static_cast<std::uint32_t>(std::ranges::find(v, face.key[k]) - v.begin());
-        face.corner[k] = 4 * t + i;
-      }
-      faces.push_back(face);
-    }
-  }
-  std::ranges::sort(faces, {}, &Face::key);
-  DisjointSets corners(4 * mesh.tetrahedra.size());
-  for (std::size_t n = 1; n < faces.size(); ++n) {
-    if (faces[n].key != faces[n - 1].key) continue;
-    for (std::size_t k = 0; k < 3; ++k) corners.join(faces[n - 1].corner[k], faces[n].corner[k]);
-  }
-  std::vector<VertexId> parts;  // the vertex of each
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      if (mesh.region[t] != kOutside && corners.smallest(4 * t + i) == 4 * t + i) {
-        parts.push_back(mesh.tetrahedra[t][i]);
-      }
-    }
-  }
-  std::ranges::sort(parts);
-  return std::ranges::adjacent_find(parts) != parts.end();
+  ConformingMesh inside{mesh.tetrahedra, mesh.region, {}, {}};
+  keep_inside(inside);
+  VertexId vertices = 0;
+  for (const Tet& t : inside.tetrahedra) vertices = std::max(vertices, std::ranges::max(t) + 1);
+  return !MeshTopology(std::move(inside.tetrahedra), inside.region, {}, vertices).pinched().empty();
 }
 
 std::size_t drop_bare_faces(ConformingMesh& mesh) {

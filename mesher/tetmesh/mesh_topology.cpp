@@ -94,6 +94,22 @@ void MeshTopology::star(VertexId v, std::vector<TetId>& star) const {
   }
 }
 
+std::vector<VertexId> MeshTopology::pinched() const {
+  std::vector<std::uint32_t> degree(incident_.size(), 0);
+  for (TetId t = 0; t < tet_.size(); ++t) {
+    if (!alive(t)) continue;
+    for (const VertexId v : tet_[t]) ++degree[v];
+  }
+  std::vector<VertexId> pinched;
+  std::vector<TetId> around;
+  for (VertexId v = 0; v < degree.size(); ++v) {
+    if (degree[v] == 0) continue;
+    star(v, around);
+    if (around.size() < degree[v]) pinched.push_back(v);
+  }
+  return pinched;
+}
+
 void MeshTopology::contract(VertexId v, VertexId w, std::span<const TetId> star) {
   for (const TetId t : star) {
     const int i = index_of(t, v), j = index_of(t, w);

@@ -86,6 +86,8 @@ class MeshTopology {
 
   // The tetrahedra around v, in an order that depends on the mesh alone.
   void star(VertexId v, std::vector<TetId>& star) const;
+  // The vertices with tetrahedra that are not in their star, since no faces connect them.
+  std::vector<VertexId> pinched() const;
 
   // A new vertex, without tetrahedra as yet.
   VertexId add_vertex() {

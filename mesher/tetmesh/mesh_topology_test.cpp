@@ -51,6 +51,13 @@ TEST(MeshTopology, KnowsNeighboursAndFacets) {
   EXPECT_EQ(star(mesh, 3), (std::vector<TetId>{0}));
 }
 
+// Vertex 8 has no tetrahedra.
+TEST(MeshTopology, KnowsVerticesOfSeveralStars) {
+  const std::vector<Tet> tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}, {3, 5, 6, 7}};
+  const std::vector<RegionId> region = {1, 1, 1};
+  EXPECT_EQ(MeshTopology(tetrahedra, region, {}, 9).pinched(), std::vector<VertexId>{3});
+}
+
 TEST(MeshTopology, RefusesAFaceOfThree) {
   Pair pair;
   pair.tetrahedra.push_back({0, 1, 2, 4});
