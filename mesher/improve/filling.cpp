@@ -22,7 +22,11 @@ constexpr double kMostPoints = 16;
 }  // namespace
 
 Filling::Filling(State& state, const Goals& goals, Control& control)
-    : state_(state), goals_(goals), control_(control), version_(state.mesh.slots(), 0) {
+    : state_(state),
+      goals_(goals),
+      control_(control),
+      version_(state.mesh.slots(), 0),
+      operation_(state.mesh) {
   find_sizes();
   bound_points();
 }
@@ -155,35 +159,25 @@ bool Filling::is_in_ball(TetId t, const Vec3& x) const {
   return c.squared_radius == 0 || dot(y, y) < 2 * dot(c.from_first, y);
 }
 
-// Is the tetrahedron beyond face i of t in the cavity, with no facet between?
-bool Filling::is_open(TetId t, int i) const {
-  const TetId u = state_.mesh.neighbor(t, i);
-  return u != kNone && mark_[u] == epoch_ && state_.mesh.facet(t, i) == kNone;
-}
-
 // The cavity becomes what hangs together with `start`, with no facet between, of the tetrahedra
 // that belong to it.
 template <class Belongs>
 void Filling::collect(TetId start, const Belongs& belongs) {
   const MeshTopology& mesh = state_.mesh;
-  next_epoch(epoch_, mark_);
-  mark_[start] = epoch_;
-  cavity_.assign(1, start);
-  for (std::size_t n = 0; n < cavity_.size(); ++n) {
+  operation_.begin({kNone, kNone}, {kNone, kNone});
+  operation_.add(start, Judge());
+  for (std::size_t n = 0; n < operation_.cavity().size(); ++n) {
+    const TetId t = operation_.cavity()[n];
     for (int i = 0; i < 4; ++i) {
-      const TetId u = mesh.neighbor(cavity_[n], i);
-      if (u == kNone || mark_[u] == epoch_ || mesh.facet(cavity_[n], i) != kNone || !belongs(u)) {
-        continue;
-      }
-      mark_[u] = epoch_;
-      cavity_.push_back(u);
+      const TetId u = mesh.neighbor(t, i);
+      const bool open = u != kNone && !operation_.contains(u) && mesh.facet(t, i) == kNone;
+      if (open && belongs(u)) operation_.add(u, Judge());
     }
   }
 }
 
 // The tetrahedra with x in their circumsphere.
 void Filling::grow(TetId start, const Vec3& x) {
-  mark_.resize(state_.mesh.slots(), 0);
   collect(start, [&](TetId u) { return is_in_ball(u, x); });
 }
 
@@ -191,31 +185,37 @@ void Filling::grow(TetId start, const Vec3& x) {
 // would have to go.
 bool Filling::cut_back(TetId start, const Vec3& x) {
   const MeshTopology& mesh = state_.mesh;
-  work_ = cavity_;
+  mark_.resize(mesh.slots(), 0);
+  next_epoch(epoch_, mark_);
+  work_ = operation_.cavity();
+  for (const TetId t : work_) mark_[t] = epoch_;
+  const auto is_left = [&](TetId u) { return mark_[u] == epoch_; };
   bool any = false;
   for (std::size_t n = 0; n < work_.size(); ++n) {
     const TetId t = work_[n];
-    if (mark_[t] != epoch_) continue;
-    const auto is_hidden = [&](int i) { return !is_open(t, i) && !sees(t, i, x); };
+    if (!is_left(t)) continue;
+    const auto is_open = [&](int i) {
+      const TetId u = mesh.neighbor(t, i);
+      return u != kNone && is_left(u) && mesh.facet(t, i) == kNone;
+    };
+    const auto is_hidden = [&](int i) { return !is_open(i) && !sees(t, i, x); };
     if (!is_hidden(0) && !is_hidden(1) && !is_hidden(2) && !is_hidden(3)) continue;
     if (t == start) return false;
     mark_[t] = 0;
     any = true;
     for (int i = 0; i < 4; ++i) {
-      const TetId u = mesh.neighbor(t, i);
-      if (u != kNone && mark_[u] == epoch_ && mesh.facet(t, i) == kNone) work_.push_back(u);
+      if (is_open(i)) work_.push_back(mesh.neighbor(t, i));
     }
   }
   // What hangs together with `start` is star-shaped as well: a face on its skin is on the skin of
   // the whole.
-  const std::uint32_t before = epoch_;
-  if (any) collect(start, [&](TetId u) { return mark_[u] == before; });
+  if (any) collect(start, is_left);
   return true;
 }
 
-double Filling::size_at(const Vec3& x) const {
+double Filling::size_at(std::span<const TetId> cavity, const Vec3& x) const {
   double size = allowed_at(x);
-  for (const TetId t : cavity_) {
+  for (const TetId t : cavity) {
     for (const VertexId v : state_.mesh.tet(t)) {
       size = std::min(size, size_[v] + kGrowth * distance(x, state_.position(v)));
     }
@@ -223,10 +223,10 @@ double Filling::size_at(const Vec3& x) const {
   return size;
 }
 
-bool Filling::has_room(const Vec3& x, double size) const {
+bool Filling::has_room(std::span<const TetId> cavity, const Vec3& x, double size) const {
   const MeshTopology& mesh = state_.mesh;
   const double least = kClearance * size;
-  for (const TetId t : cavity_) {
+  for (const TetId t : cavity) {
     for (const VertexId v : mesh.tet(t)) {
       if (squared_norm(subtract(x, state_.position(v))) < least * least) return false;
     }
@@ -240,51 +240,27 @@ bool Filling::has_room(const Vec3& x, double size) const {
   return true;
 }
 
-// The tetrahedra between the point and the skin. False if a vertex would be lost.
-bool Filling::find_created() {
-  const MeshTopology& mesh = state_.mesh;
-  vertex_mark_.resize(mesh.vertices(), 0);
-  next_epoch(vertex_epoch_, vertex_mark_);
-  created_.clear();
-  for (const TetId t : cavity_) {
-    for (int i = 0; i < 4; ++i) {
-      if (is_open(t, i)) continue;
-      Tet tet = mesh.tet(t);
-      tet[i] = kNone;
-      created_.push_back({tet, mesh.region(t)});
-      for (const int k : kFace[i]) vertex_mark_[mesh.tet(t)[k]] = vertex_epoch_;
-    }
-  }
-  return std::ranges::all_of(cavity_, [&](TetId t) {
-    return std::ranges::all_of(mesh.tet(t),
-                               [&](VertexId v) { return vertex_mark_[v] == vertex_epoch_; });
-  });
-}
-
-bool Filling::is_positive(const Place& place) {
-  return std::ranges::all_of(cavity_, [&](TetId t) {
-    for (int i = 0; i < 4; ++i) {
-      if (!is_open(t, i) && !state_.is_positive_with(state_.mesh.tet(t), i, place)) return false;
-    }
-    return true;
-  });
-}
-
 bool Filling::insert(TetId start, const Vec3& x) {
   // Most points are much too near: that is seen here, before there is a cavity.
   constexpr double kMuch = 0.5;
-  cavity_.assign(1, start);
-  if (!has_room(x, kMuch * size_at(x))) return false;
+  if (!has_room({&start, 1}, x, kMuch * size_at({&start, 1}, x))) return false;
   grow(start, x);
-  const double size = size_at(x);
-  if (!has_room(x, size) || !cut_back(start, x) || !find_created()) return false;
+  const double size = size_at(operation_.cavity(), x);
+  // All vertices stay.
+  if (!has_room(operation_.cavity(), x, size) || !cut_back(start, x) ||
+      !operation_.find_change([](VertexId) { return false; })) {
+    return false;
+  }
   const Place place = state_.new_place(x, size * State::kGrid);
-  if (!is_positive(place)) {
+  const auto is_positive = [&](const auto& face) {
+    return state_.is_positive_with(state_.mesh.tet(face.tet), face.face, place);
+  };
+  if (!std::ranges::all_of(operation_.skin(), is_positive)) {
     state_.forget(place);
     return false;
   }
   size_.push_back(size);
-  state_.insert(place, cavity_, created_);
+  state_.insert(place, operation_.cavity(), operation_.created());
   for (const TetId t : state_.mesh.created()) note(t);
   return true;
 }

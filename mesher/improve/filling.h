@@ -22,11 +22,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <vector>
 
 #include "mesher/base/control.h"
 #include "mesher/improve/state.h"
+#include "mesher/tetmesh/insert_point.h"
 
 namespace delmesher::improve {
 
@@ -52,6 +54,13 @@ class Filling {
     double squared_radius = 0;  // 0 where the tetrahedron is flat
   };
 
+  // All that counts is asked of the whole skin.
+  struct Judge {
+    using Value = bool;
+    static bool in_plane() { return true; }
+    static bool value_of(TetId, int) { return true; }
+  };
+
   void find_sizes();
   void bound_points();
   double allowed_at(const Vec3& x) const;
@@ -65,12 +74,9 @@ class Filling {
   void collect(TetId start, const Belongs& belongs);
   void grow(TetId start, const Vec3& x);
   bool cut_back(TetId start, const Vec3& x);
-  bool is_open(TetId t, int i) const;
   bool sees(TetId t, int i, const Vec3& x) const;
-  double size_at(const Vec3& x) const;
-  bool has_room(const Vec3& x, double size) const;
-  bool find_created();
-  bool is_positive(const Place& place);
+  double size_at(std::span<const TetId> cavity, const Vec3& x) const;
+  bool has_room(std::span<const TetId> cavity, const Vec3& x, double size) const;
 
   State& state_;
   const Goals& goals_;
@@ -79,11 +85,10 @@ class Filling {
   std::vector<double> size_;            // per vertex
   std::vector<std::uint32_t> version_;  // per slot: counts the tetrahedra that were there
   std::priority_queue<Candidate> queue_;
-  std::vector<TetId> cavity_, work_;
-  std::vector<std::uint32_t> mark_;         // per slot
-  std::vector<std::uint32_t> vertex_mark_;  // per vertex
-  std::uint32_t epoch_ = 0, vertex_epoch_ = 0;
-  std::vector<CreatedTet> created_;
+  InsertPoint<Judge> operation_;
+  std::vector<TetId> work_;
+  std::vector<std::uint32_t> mark_;  // per slot: epoch_ if cut_back() has left it
+  std::uint32_t epoch_ = 0;
 };
 
 }  // namespace delmesher::improve

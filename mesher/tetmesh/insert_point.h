@@ -114,15 +114,16 @@ class InsertPoint {
  private:
   template <class MayGo>
   bool keeps_vertices(const MayGo& may_go) {
-    kept_.clear();
+    kept_.resize(mesh_.vertices(), 0);
+    next_epoch(kept_epoch_, kept_);
     for (const CreatedTet& tet : created_) {
-      kept_.insert(kept_.end(), tet.vertices.begin(), tet.vertices.end());
+      for (const VertexId v : tet.vertices) {
+        if (v != kNone) kept_[v] = kept_epoch_;
+      }
     }
-    std::ranges::sort(kept_);
     return std::ranges::all_of(cavity_, [&](TetId t) {
-      return std::ranges::all_of(mesh_.tet(t), [&](VertexId v) {
-        return may_go(v) || std::ranges::binary_search(kept_, v);
-      });
+      return std::ranges::all_of(mesh_.tet(t),
+                                 [&](VertexId v) { return kept_[v] == kept_epoch_ || may_go(v); });
     });
   }
 
@@ -167,7 +168,8 @@ class InsertPoint {
   std::vector<CreatedTet> created_;
   std::vector<SurfaceFace> faces_;
   std::vector<FaceEdge> edges_, outline_, inner_;
-  std::vector<VertexId> kept_;
+  std::vector<std::uint32_t> kept_;  // per vertex: kept_epoch_ if it stays
+  std::uint32_t kept_epoch_ = 0;
 };
 
 }  // namespace delmesher::tetmesh
