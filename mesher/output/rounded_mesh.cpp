@@ -17,30 +17,18 @@ bool has(const List& list, std::uint32_t value) {
 
 }  // namespace
 
-NearestMesh::NearestMesh(RoundingInput input, Control& control)
-    : mesh(std::move(input.mesh)),
-      points(*input.points),
-      frame(input.frame),
-      place(std::move(input.place)) {
+NearestMesh::NearestMesh(RoundingInput input, Control& control) : RoundingInput(std::move(input)) {
   DELMESHER_CHECK(mesh.region.size() == mesh.tetrahedra.size(),
                   "there are not as many regions as tetrahedra");
-  std::vector<VertexId> number(points.size(), kNone);
+  std::vector<std::uint8_t> used(points->size(), 0);
   for (const Tet& t : mesh.tetrahedra) {
-    for (const VertexId v : t) number[v] = 0;
+    for (const VertexId v : t) used[v] = 1;
   }
-  for (VertexId p = 0; p < number.size(); ++p) {
-    if (number[p] == kNone) continue;
-    number[p] = static_cast<VertexId>(point.size());
-    by_home.push_back(number[p]);
-    point.push_back(p);
-    mobility.push_back(input.mobility[p]);
-    home.push_back(frame.written(local_home(number[p])));
-  }
-  for (Tet& t : mesh.tetrahedra) {
-    for (VertexId& v : t) v = number[v];
-  }
-  for (SurfaceFace& face : mesh.boundary) {
-    for (VertexId& v : face.vertices) v = number[v];
+  home.resize(used.size());
+  for (VertexId v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) continue;
+    by_home.push_back(v);
+    home[v] = frame.written(local_home(v));
   }
   std::stable_sort(by_home.begin(), by_home.end(),
                    [&](VertexId v, VertexId w) { return home[v] < home[w]; });
@@ -53,7 +41,7 @@ NearestMesh::NearestMesh(RoundingInput input, Control& control)
 }
 
 double NearestMesh::home_error(VertexId v) const {
-  const double error = points.approximation(point[v]).error;
+  const double error = points->approximation(v).error;
   if (!frame.moved()) return error;
   const Vec3 d = subtract(home[v], local_home(v));
   return (error + largest_component(d)) * (1 + 0x1p-50);
@@ -67,8 +55,8 @@ double NearestMesh::largest_of_surface() const {
   for (const SurfaceFace& face : mesh.boundary) {
     for (const VertexId v : face.vertices) take(v);
   }
-  for (VertexId v = 0; mesh.boundary.empty() && v < point.size(); ++v) {
-    if (on_surface(v)) take(v);
+  for (const VertexId v : by_home) {
+    if (mesh.boundary.empty() && on_surface(v)) take(v);
   }
   return largest;
 }
@@ -81,7 +69,7 @@ std::vector<double> NearestMesh::largest_of_facets() const {
       largest = std::max(largest, largest_component(frame.given(home[v])));
     }
   }
-  std::vector<double> largest(point.size(), largest_of_surface());
+  std::vector<double> largest(home.size(), largest_of_surface());
   for (const SurfaceFace& face : mesh.boundary) {
     for (const VertexId v : face.vertices) {
       largest[v] = std::min(largest[v], of_facet[face.facet]);
@@ -110,10 +98,9 @@ std::vector<std::vector<VertexId>> NearestMesh::coincident(std::span<const Vec3>
 }
 
 RoundedMesh::RoundedMesh(const NearestMesh& nearest)
-    : PlacedMesh({nearest.point, MeshTopology(nearest.mesh.tetrahedra, nearest.mesh.region,
-                                              nearest.mesh.boundary, nearest.point.size())}),
+    : PlacedMesh(numbered_by_points(nearest.mesh, nearest.home.size())),
       nearest_(nearest),
-      predicates_(nearest.points),
+      predicates_(*nearest.points),
       sign_(nearest.sign) {
   position_ = nearest.home;
   mobility_ = nearest.mobility;
@@ -124,15 +111,7 @@ RoundedMesh::RoundedMesh(const NearestMesh& nearest)
 }
 
 void RoundedMesh::find_pinched() {
-  std::vector<std::uint32_t> degree(mesh.vertices(), 0);
-  for (TetId t = 0; t < mesh.slots(); ++t) {
-    for (const VertexId v : mesh.tet(t)) ++degree[v];
-  }
-  std::vector<TetId> star;
-  for (VertexId v = 0; v < mesh.vertices(); ++v) {
-    mesh.star(v, star);
-    if (star.size() < degree[v]) pinched_[v];
-  }
+  for (const VertexId v : mesh.pinched()) pinched_[v];
   for (TetId t = 0; t < mesh.slots() && !pinched_.empty(); ++t) {
     for (const VertexId v : mesh.tet(t)) {
       if (const auto at = pinched_.find(v); at != pinched_.end()) at->second.push_back(t);

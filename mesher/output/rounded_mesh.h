@@ -22,7 +22,7 @@ inline Badness badness(int sign) {
 }
 
 // Every vertex is at home: at the nearest doubles of its exact position, or RoundingInput::place.
-struct NearestMesh {
+struct NearestMesh : RoundingInput {
   NearestMesh(RoundingInput input, Control& control);
 
   // Bounds the distance of home[v] from the exact position in each coordinate.
@@ -32,33 +32,24 @@ struct NearestMesh {
   // are no faces of the surface, of all that is held in place. The box around the surface is larger
   // and says nothing about the surface's scale.
   double largest_of_surface() const;
-  // Per vertex, the same of the facet that it is on, or of the smallest one of several; of others
+  // Per point, the same of the facet that it is on, or of the smallest one of several; of others
   // that of the surface.
   std::vector<double> largest_of_facets() const;
   // Groups of vertices with equal coordinates, in their order, where vertices are at `position`.
   // Those that have moved are in none.
   std::vector<std::vector<VertexId>> coincident(std::span<const Vec3> position) const;
 
-  // In numbers of its own vertices, which ascend with those of the store.
-  ConformingMesh mesh;
-  const PointStore& points;
-  LocalFrame frame;
-  std::vector<Vec3> place;  // RoundingInput::place
-  std::vector<VertexId> point;
-  std::vector<Vec3> home;
-  std::vector<Mobility> mobility;
-  std::vector<VertexId> by_home;  // sorted
+  std::vector<Vec3> home;         // per point of the store that is a vertex
+  std::vector<VertexId> by_home;  // the vertices, sorted
   std::vector<std::int8_t> sign;  // of tetrahedra
   std::size_t bad = 0;            // tetrahedra that are not positive
 
  private:
   // In the frame, before it is rounded to what can be written.
-  Vec3 local_home(VertexId v) const {
-    return place.empty() ? points.nearest(point[v]) : place[point[v]];
-  }
+  Vec3 local_home(VertexId v) const { return place.empty() ? points->nearest(v) : place[v]; }
 };
 
-// Vertices have the numbers of NearestMesh.
+// Vertices have the numbers of their points.
 class RoundedMesh final : public PlacedMesh {
  public:
   // Costs memory, so a mesh with nothing to repair does without.

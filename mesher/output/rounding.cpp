@@ -121,7 +121,7 @@ double deviation(const NearestMesh& nearest, VertexId v, const Vec3& p) {
 void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, RoundingResult& result) {
   TetMesh& written = result.mesh;
   const std::size_t slots = repaired != nullptr ? repaired->mesh.slots() : nearest.sign.size();
-  std::vector<VertexId> index(nearest.point.size(), kNone);
+  std::vector<VertexId> index(nearest.home.size(), kNone);
   written.tetrahedra.reserve(slots);
   written.inside.reserve(slots);
   const bool several =
@@ -148,7 +148,7 @@ void export_mesh(const NearestMesh& nearest, const RoundedMesh* repaired, Roundi
   for (VertexId v = 0; v < index.size(); ++v) {
     if (index[v] == kNone) continue;
     index[v] = static_cast<VertexId>(result.vertices.size());
-    result.vertices.push_back(nearest.point[v]);
+    result.vertices.push_back(v);
     written.vertices.push_back(position[v]);
     if (nearest.on_surface(v)) {
       result.max_surface_deviation =
@@ -172,9 +172,8 @@ RoundingResult round_once(const NearestMesh& nearest, Strategy strategy, Control
   std::optional<RoundedMesh> mesh;
   for (TetId t = 0; nearest.bad != 0 && t < nearest.sign.size(); ++t) {
     if (nearest.sign[t] > 0) continue;
-    for (const VertexId v : nearest.mesh.tetrahedra[t]) {
-      result.disturbed.push_back(nearest.point[v]);
-    }
+    const Tet& v = nearest.mesh.tetrahedra[t];
+    result.disturbed.insert(result.disturbed.end(), v.begin(), v.end());
   }
   result.tried = nearest.bad <= most;
   if (result.tried && (nearest.bad != 0 || !nearest.coincident(nearest.home).empty())) {

@@ -68,12 +68,8 @@ bool ExactMesh::is_on_free_edge(VertexId v) const {
 }
 
 void ExactMesh::contract(VertexId v, VertexId w, std::span<const TetId> star) {
-  ++clock_;
   --gained_;
-  mesh.contract(v, w, star);
-  for (const TetId t : star) {
-    if (mesh.alive(t)) changed(t);
-  }
+  PlacedMesh::contract(v, w, star);
 }
 
 Place ExactMesh::moved(VertexId v, const Vec3& offset, double tolerance) {

@@ -1,6 +1,7 @@
 #include "mesher/tetmesh/numbering.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -63,6 +64,13 @@ NumberedMesh numbered(ConformingMesh mesh, const PointStore& points) {
   }
   MeshTopology topology(std::move(mesh.tetrahedra), mesh.region, mesh.boundary, point.size());
   return {std::move(point), std::move(topology)};
+}
+
+NumberedMesh numbered_by_points(ConformingMesh mesh, std::size_t points) {
+  std::vector<VertexId> point(points);
+  std::iota(point.begin(), point.end(), 0U);
+  return {std::move(point),
+          MeshTopology(std::move(mesh.tetrahedra), mesh.region, mesh.boundary, points)};
 }
 
 ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point) {

@@ -19,6 +19,8 @@ struct NumberedMesh {
   MeshTopology topology;
 };
 NumberedMesh numbered(ConformingMesh mesh, const PointStore& points);
+// As it was given, in the numbers of the points; of how many there are.
+NumberedMesh numbered_by_points(ConformingMesh mesh, std::size_t points);
 
 // With points of the store again. A face of the surface is seen from the side that tells of it.
 ConformingMesh mesh_of(const MeshTopology& topology, std::span<const VertexId> point);

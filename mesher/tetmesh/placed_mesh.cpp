@@ -4,6 +4,14 @@
 
 namespace delmesher::tetmesh {
 
+void PlacedMesh::contract(VertexId v, VertexId w, std::span<const TetId> star) {
+  ++clock_;
+  mesh.contract(v, w, star);
+  for (const TetId t : star) {
+    if (mesh.alive(t)) changed(t);
+  }
+}
+
 bool PlacedMesh::accept(const Change& change) {
   const auto is_valid = [&](const CreatedTet& tet) { return is_positive(tet.vertices); };
   if (!std::ranges::all_of(change.created, is_valid)) return false;

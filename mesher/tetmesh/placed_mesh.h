@@ -63,6 +63,8 @@ class PlacedMesh {
     return true;
   }
 
+  // Contracts the edge from v to w: v goes. `star`: the tetrahedra around v.
+  void contract(VertexId v, VertexId w, std::span<const TetId> star);
   // Makes the change if all that it creates is positive.
   bool accept(const Change& change);
   void replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
