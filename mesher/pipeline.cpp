@@ -555,9 +555,7 @@ Result run_within(const Surface& surface, const Options& options, const LocalFra
     if (const std::string defect = options_defect(options); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
-    const SizeField sizes(options.size_field, options.size_growth);
-    remeshed = remesh::remesh(
-        surface, {options.tolerance, options.feature, options.max_edge, &sizes}, frame, control);
+    remeshed = remesh::remesh(surface, remesh::goals_of(options), frame, control);
     return remeshed.status;
   });
   const auto& seconds = control.phase_seconds();

@@ -20,9 +20,7 @@ RemeshResult run_remeshing(const Surface& surface, const RemeshOptions& options)
     if (std::string defect = options_defect(options); !defect.empty()) {
       return {StatusCode::invalid_options, std::move(defect)};
     }
-    const SizeField sizes(options.size_field, options.size_growth);
-    remesh::Remeshed remeshed = remesh::remesh(
-        surface, {options.tolerance, options.feature, options.max_edge, &sizes}, {}, control);
+    remesh::Remeshed remeshed = remesh::remesh(surface, remesh::goals_of(options), {}, control);
     result.warnings = std::move(remeshed.warnings);
     result.surface = std::move(remeshed.surface);
     result.tolerance = remeshed.tolerance;

@@ -18,9 +18,15 @@ struct RemeshGoals {
   // Edges that bend by more degrees are lines, as are borders of labels and edges of other than two
   // triangles. Where lines end, meet, or bend by as much, vertices stay.
   double feature = 40;
-  double max_edge = 0;               // 0: no bound
-  const SizeField* sizes = nullptr;  // no longer edges; may be empty
+  double max_edge = 0;   // 0: no bound
+  SizeField sizes = {};  // no longer edges; may be empty
 };
+// Of the options of a job.
+template <class Options>
+RemeshGoals goals_of(const Options& options) {
+  return {options.tolerance, options.feature, options.max_edge,
+          SizeField(options.size_field, options.size_growth)};
+}
 
 struct Remeshed {
   Status status;  // of check_validity, or the limit that ended it

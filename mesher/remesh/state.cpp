@@ -135,8 +135,7 @@ std::vector<Simplex> State::added_lines(const Patch& patch) const {
 
 bool State::is_too_long(const Line& edge) const {
   return (goals_.max_edge > 0 && !(length(edge) <= goals_.max_edge)) ||
-         (goals_.sizes != nullptr && !goals_.sizes->empty() &&
-          goals_.sizes->is_too_long(at(edge[0]), at(edge[1])));
+         (!goals_.sizes.empty() && goals_.sizes.is_too_long(at(edge[0]), at(edge[1])));
 }
 
 double State::sine_of_removed(const Patch& patch) const {
