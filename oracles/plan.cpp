@@ -10,21 +10,26 @@ namespace {
 
 using delmesher::ExactRecord;
 
+// The mesh of a complex, with a region for each part of space, is judged by its file alone.
+bool of_regions(const ExactRecord*, const VerifyOptions& options) {
+  return options.promised.all_regions;
+}
+bool of_solid(const ExactRecord*, const VerifyOptions& options) {
+  return !options.promised.all_regions;
+}
 // The file of a run that had a final stage is not the refined mesh.
-bool of_file(const ExactRecord* exact, Stage stage) {
-  return stage != Stage::refined || exact == nullptr || exact->final.empty();
+bool of_file(const ExactRecord* exact, const VerifyOptions& options) {
+  return of_solid(exact, options) &&
+         (options.stage != Stage::refined || exact == nullptr || exact->final.empty());
 }
-bool always(const ExactRecord*, Stage) {
-  return true;
+bool of_record(const ExactRecord* exact, const VerifyOptions& options) {
+  return of_solid(exact, options) && exact != nullptr;
 }
-bool of_record(const ExactRecord* exact, Stage) {
-  return exact != nullptr;
+bool of_final(const ExactRecord* exact, const VerifyOptions& options) {
+  return of_record(exact, options) && options.stage != Stage::refined;
 }
-bool of_final(const ExactRecord* exact, Stage stage) {
-  return exact != nullptr && stage != Stage::refined;
-}
-bool of_refined(const ExactRecord* exact, Stage stage) {
-  return exact != nullptr && stage != Stage::final;
+bool of_refined(const ExactRecord* exact, const VerifyOptions& options) {
+  return of_record(exact, options) && options.stage != Stage::final;
 }
 
 constexpr unsigned kRefined = kRefinedElements + kRefinedComplex;
@@ -42,16 +47,16 @@ constexpr PlannedStep kSteps[] = {
     {check_refined_promises, of_refined, 7, kRefined + kFinal, 0},
     {check_final, of_final, 3, kFinalMeshes, kFinalTetrahedra + kUnrepairedTetrahedra},
     {check_file, of_file, 0, kFile, kFileTetrahedra},
-    {check_input, always, 1, 0, 0},
+    {check_input, of_solid, 1, 0, 0},
+    {check_regions, of_regions, 0, kFile + kFileTetrahedra, 0},
 };
 
 }  // namespace
 
-std::vector<PlannedStep> plan(const ExactRecord* exact, Stage stage, bool all_regions) {
-  if (all_regions) return {{check_regions, always, 0, kFile + kFileTetrahedra, 0}};
+std::vector<PlannedStep> plan(const ExactRecord* exact, const VerifyOptions& options) {
   std::vector<PlannedStep> steps;
   std::ranges::copy_if(kSteps, std::back_inserter(steps),
-                       [&](const PlannedStep& step) { return step.wanted(exact, stage); });
+                       [&](const PlannedStep& step) { return step.wanted(exact, options); });
   return steps;
 }
 

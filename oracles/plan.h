@@ -76,14 +76,13 @@ std::unique_ptr<Step> check_refined_promises(const Subject& subject);  // refine
 
 struct PlannedStep {
   Start start;
-  bool (*wanted)(const delmesher::ExactRecord* exact, Stage stage);
+  bool (*wanted)(const delmesher::ExactRecord* exact, const VerifyOptions& options);
   int reported;    // its place in the report
   unsigned needs;  // bulks that it reads until it ends
   unsigned frees;  // bulks that it reads, and is done with before it takes most of its memory
 };
 
-// The steps of this verification, in the order in which they begin. `all_regions`: of
-// Promise::all_regions, of the file alone.
-std::vector<PlannedStep> plan(const delmesher::ExactRecord* exact, Stage stage, bool all_regions);
+// The steps of this verification, in the order in which they begin.
+std::vector<PlannedStep> plan(const delmesher::ExactRecord* exact, const VerifyOptions& options);
 
 }  // namespace tetproof::oracles

@@ -173,8 +173,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   shared = std::make_unique<SharedData>(*frame.input, frame.exact, frame.options.promised, memory);
   const Subject subject{*frame.input, *frame.mesh, frame.exact,        frame.options,
                         *shared,      memory,      frame.largest_given};
-  const std::vector<PlannedStep> planned =
-      plan(frame.exact, frame.options.stage, frame.options.promised.all_regions);
+  const std::vector<PlannedStep> planned = plan(frame.exact, frame.options);
   std::vector<std::unique_ptr<Step>> steps;
   for (const PlannedStep& step : planned) {
     steps.push_back(step.start(subject));
