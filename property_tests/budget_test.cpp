@@ -17,12 +17,6 @@ using delmesher::StatusCode;
 using delmesher::Surface;
 
 // Two facets of 0.3 diagonals at a gap, in a model of diagonal 1: of one plate, or of two boxes.
-Options split() {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
-  return options;
-}
-
 Surface thin(double gap, bool plate) {
   Surface surface;
   if (plate) {
@@ -42,7 +36,7 @@ TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
       for (const bool plate : {true, false}) {
         SCOPED_TRACE(gap);
         const Surface surface = thin(gap, plate);
-        Options options = split();
+        Options options = samples::split_surface();
         options.budget = kBudget;
         options.region = region;
         options.want_exact = true;
@@ -69,7 +63,7 @@ TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
 // many for a tenth of it, by the integral over the local feature size.
 TEST(Budget, PredictionsGrowAsTheIntegralSays) {
   const auto predicted = [](double gap) {
-    Options options = split();
+    Options options = samples::split_surface();
     options.progress = [](const delmesher::Progress& progress) {
       return progress.predicted_tetrahedra == 0;
     };
@@ -85,7 +79,7 @@ TEST(Budget, PredictionsGrowAsTheIntegralSays) {
 TEST(Budget, WhatCannotFitIsRefusedWithAReason) {
   Surface surface;
   samples::add_box(surface, {0, 0, 0}, {1, 1, 1});
-  Options options = split();
+  Options options = samples::split_surface();
   options.max_edge = 0.01;  // no filter helps against this
   options.budget = 1000;
   const Result result = delmesher::tetrahedralize(surface, options);
@@ -97,7 +91,7 @@ TEST(Budget, WhatCannotFitIsRefusedWithAReason) {
 TEST(Budget, PredictionDoesNotDependOnTheScale) {
   for (const auto& model : samples::surfaces(20261121)) {
     SCOPED_TRACE(model.name);
-    Options options = split();
+    Options options = samples::split_surface();
     const Result result = delmesher::tetrahedralize(model.surface, options);
     ASSERT_TRUE(result.status.ok());
     Surface scaled = model.surface;
@@ -165,7 +159,7 @@ TEST(Budget, PredictionsAreAboutTheIntegral) {
   for (const auto& side : sides) {
     Surface surface;
     samples::add_box(surface, {0, 0, 0}, side);
-    const Result result = delmesher::tetrahedralize(surface, split());
+    const Result result = delmesher::tetrahedralize(surface, samples::split_surface());
     ASSERT_TRUE(result.status.ok());
     ratios.push_back(result.statistics.predicted_tetrahedra / integral_over_box(side));
   }
@@ -184,7 +178,7 @@ TEST(Budget, PredictionDoesNotDependOnTheOrder) {
     std::rotate(surface.triangles.begin(),
                 surface.triangles.begin() + static_cast<std::ptrdiff_t>(first),
                 surface.triangles.end());
-    const Result result = delmesher::tetrahedralize(surface, split());
+    const Result result = delmesher::tetrahedralize(surface, samples::split_surface());
     EXPECT_TRUE(result.status.ok());
     return result.statistics.predicted_tetrahedra;
   };
@@ -200,7 +194,7 @@ TEST(Budget, PredictionDoesNotDependOnThePlace) {
     Surface surface;
     samples::add_box(surface, {x, y, z}, {x + 2, y + 1, z + 0.5});
     samples::add_box(surface, {x + 2.25, y, z}, {x + 3, y + 1, z + 1});
-    const Result result = delmesher::tetrahedralize(surface, split());
+    const Result result = delmesher::tetrahedralize(surface, samples::split_surface());
     EXPECT_TRUE(result.status.ok());
     return result.statistics.predicted_tetrahedra;
   };

@@ -67,8 +67,7 @@ void expect_verified(const Surface& surface, const oracles::Promise& promise,
 }
 
 Options with_record() {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.want_exact = true;
   return options;
 }

@@ -49,8 +49,7 @@ Told run_of(const delmesher::Surface& surface, Options options = {}) {
 
 const Told& honest() {
   static const Told told = [] {
-    Options options;
-    options.surface = delmesher::SurfaceChoice::split;
+    Options options = samples::split_surface();
     options.tau = 0x1p-9;  // takes the slab apart
     return run_of(samples::wedge_and_slab(), options);
   }();
@@ -62,8 +61,7 @@ class ImprovedModels : public testing::TestWithParam<NamedSurface> {};
 // Both runs are the same up to the improvement: slivers are not treated in either.
 TEST_P(ImprovedModels, AreNeverWorseThanWithoutIt) {
   for (const auto region : {delmesher::Region::interior, delmesher::Region::hull}) {
-    Options options;
-    options.surface = delmesher::SurfaceChoice::split;
+    Options options = samples::split_surface();
     options.region = region;
     const Told improved = run_of(GetParam().surface, options);
     const VerifyReport report = improved.verify();
@@ -114,8 +112,7 @@ delmesher::Surface ball(int rounds) {
 }
 
 TEST(Improvement, OfABallTakesLessAndIsRounder) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   const auto improved = run_of(ball(3), options).statistics.final;
   options.improve = false;
   options.slivers = true;
@@ -337,8 +334,7 @@ std::size_t inside_near(const ExactRecord& record, const std::vector<ExactRecord
 // A tetrahedron that was inverted before the improvement excuses a flat one near it afterwards, and
 // none far from it.
 TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.improve = false;  // the mesh before and after is the same
   const Told plain = run_of(bar(40), options);
   ASSERT_TRUE(plain.record.unrepaired.empty());
@@ -386,8 +382,7 @@ TEST(Improvement, WhichIsFlatterByRoundingsIsNotTold) {
 
 // A worst tetrahedron that was there before allows no other one as bad at another place.
 TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.improve = false;
   Told told = run_of(bar(40), options);
   told.promise.improve = true;
@@ -406,8 +401,7 @@ TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
 // If all vertices have moved, none of them is in the mesh before. Then its tetrahedra at the same
 // place tell what was near, and the report how often.
 TEST(Improvement, IsExcusedByWhatWasThereWhereAllVerticesMoved) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.improve = false;
   const Told plain = run_of(bar(40), options);
   const auto judged = [&plain](double before, double after) {

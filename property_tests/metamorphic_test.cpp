@@ -25,8 +25,7 @@ using samples::NamedSurface;
 constexpr std::uint64_t kSeed = 20261122;
 
 Result mesh(const Surface& surface) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.want_exact = true;
   Result result = delmesher::tetrahedralize(surface, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
@@ -159,8 +158,7 @@ Surface rotated_and_scaled(const Surface& surface, const Quaternion& q, bool bac
 // facets, far above the 2^-25 that short coordinates bend them.
 TEST_P(Metamorphic, ExactRotationsKeepShapeAndVerdicts) {
   const Surface original = with_short_coordinates(GetParam().surface, 24);
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.tau = 0;
   options.want_exact = true;
   const Result straight = delmesher::tetrahedralize(original, options);
@@ -298,8 +296,7 @@ TEST_P(Metamorphic, UnionWithADisjointCopyDoublesEverything) {
     both.triangles.push_back({a + offset, b + offset, c + offset});
   }
   // Filtering is relative to the diagonal, which the copy enlarges.
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.want_exact = true;
   options.tau = 0;
   const Shape one = shape_of(delmesher::tetrahedralize(original, options));

@@ -28,8 +28,7 @@ constexpr std::uint64_t kSeed = 20261121;
 
 // The paper's thresholds, empty balls and region.
 Options paper_options() {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.acute = options.corner = 90;
   options.gabriel = true;
   options.region = delmesher::Region::hull;
@@ -45,8 +44,7 @@ Options all_as_paper() {
 }
 
 Options default_options() {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.want_exact = true;
   return options;
 }
@@ -195,8 +193,7 @@ TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
     EXPECT_EQ(result.mesh.tetrahedra.size(), model.surface.triangles.size() / 3) << model.name;
     EXPECT_FALSE(result.statistics.enriched);
     // But they are refined where other sizes or the surroundings are asked for.
-    Options options;
-    options.surface = delmesher::SurfaceChoice::split;
+    Options options = samples::split_surface();
     options.max_edge = 0.25;
     EXPECT_GT(delmesher::tetrahedralize(model.surface, options).mesh.tetrahedra.size(), 50U);
     options.max_edge = 0;
@@ -379,8 +376,7 @@ TEST(Threads, AnyNumberGivesTheSameReport) {
 
 TEST(Limits, AreErrorsAsValues) {
   const Surface surface = samples::to_surface(samples::skewed(samples::l_shape()).input);
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.max_vertices = 20;
   const delmesher::Status limit = delmesher::tetrahedralize(surface, options).status;
   EXPECT_EQ(limit.code, StatusCode::limit_reached);
@@ -449,8 +445,7 @@ TEST(Precision, EndsWithALimitThatNamesTheEdge) {
   expect_right({"gap 1e-40", crossing_edges(1e-40)}, unfiltered);
   for (const double gap : {1e-60, 1e-100, 1e-323}) {
     for (const double tau : {1e-4, 0.0}) {
-      Options options;
-      options.surface = delmesher::SurfaceChoice::split;
+      Options options = samples::split_surface();
       options.tau = tau;
       const Surface surface = crossing_edges(gap);
       EXPECT_TRUE(delmesher::check_surface(surface).status.ok());

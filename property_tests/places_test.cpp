@@ -73,8 +73,7 @@ TEST(Places, InAGridAreThoseOfEachTetrahedronAlone) {
 
 // The refined mesh of a run, with the part of the surface that its faces cover.
 void expect_places_of_a_run(const delmesher::Surface& input, bool chamfered) {
-  delmesher::Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  delmesher::Options options = samples::split_surface();
   options.want_exact = true;
   options.tau = 0x1p-9;
   const delmesher::Result run = delmesher::tetrahedralize(input, options);

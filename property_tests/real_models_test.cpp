@@ -111,8 +111,7 @@ TEST_P(RealModels, KeepEveryPromiseWithTheDefaults) {
 }
 
 TEST_P(RealModels, KeepEveryPromiseWithTheirSurfaceSplit) {
-  delmesher::Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  delmesher::Options options = samples::split_surface();
   expect_every_promise_kept(oracles::read_surface(extracted(GetParam()).string()), options);
 }
 

@@ -320,6 +320,12 @@ delmesher::Surface finned_cube(double length, double h) {
   return s;
 }
 
+delmesher::Options split_surface() {
+  delmesher::Options options;
+  options.surface = delmesher::SurfaceChoice::split;
+  return options;
+}
+
 bool exact_or_rounded(const oracles::VerifyReport& report) {
   return report.verdict == oracles::Verdict::exact || report.verdict == oracles::Verdict::rounded;
 }

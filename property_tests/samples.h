@@ -77,6 +77,9 @@ void add_box(delmesher::Surface& surface, const std::array<double, 3>& low,
 // A wedge with an edge of 11 degrees, and a slab as thin as 2^-10 beside it, one unit long each.
 delmesher::Surface wedge_and_slab();
 
+// With them the surface is chamfered and refined, however heavy the mesh becomes.
+delmesher::Options split_surface();
+
 // The number of repetitions: `normal` times the environment's TETPROOF_ITERATIONS.
 int iterations(int normal);
 

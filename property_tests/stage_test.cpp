@@ -155,8 +155,7 @@ TEST(Figure3, NaiveChamferingLeavesAcuteAnglesAtTheHole) {
 
 // Chamfers all that is acute, and drops nothing.
 Options every_corner(bool simplify_bridges) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.acute = options.corner = 90;
   options.tau = 0;
   options.want_exact = true;
@@ -282,8 +281,7 @@ TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
     for (const double z : {0.0, 1 + gap}) {
       samples::add_box(plates, {0, 0, z}, {1, 1, z + 1});
     }
-    Options options;
-    options.surface = delmesher::SurfaceChoice::split;
+    Options options = samples::split_surface();
     options.want_exact = true;
     options.tau = 0x1p-8 / std::sqrt(1 + 1 + (2 + gap) * (2 + gap));
     const Result result = delmesher::tetrahedralize(plates, options);
@@ -310,8 +308,7 @@ TEST(FilterStage, DropsWhatIsBesideALongGap) {
   for (const double length : {2000.0, 300.0}) {
     const Surface wedge =
         samples::triangular_prism({{{0, 0}, {length, 0}, {length, 3}}}, 0, length);
-    Options options;
-    options.surface = delmesher::SurfaceChoice::split;
+    Options options = samples::split_surface();
     options.want_exact = true;
     options.tau = 2 / std::hypot(length, length, 3);
     const Result result = delmesher::tetrahedralize(wedge, options);
@@ -376,8 +373,7 @@ TEST(Figure8, RefinementEndsAndCountsExplodeAsTheGapShrinks) {
   double last_ratio = 0;
   for (const double h : {0.1, 0.01, 0.001}) {
     const Surface surface = samples::finned_cube(0.03, h);
-    Options options;
-    options.surface = delmesher::SurfaceChoice::split;
+    Options options = samples::split_surface();
     options.tau = 0;
     options.gabriel = true;   // the paper's; without, thin gaps cost less
     options.improve = false;  // takes out more where there is more

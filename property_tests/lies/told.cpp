@@ -11,8 +11,7 @@ using delmesher::ExactRecord;
 using delmesher::Options;
 
 Options honest_options() {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.want_exact = true;
   options.gabriel = true;
   options.improve = false;

@@ -31,8 +31,7 @@ struct MesherRun {
 // The filter takes the slab apart.
 MesherRun mesher_run() {
   const delmesher::Surface s = samples::wedge_and_slab();
-  delmesher::Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  delmesher::Options options = samples::split_surface();
   options.want_exact = true;
   options.gabriel = true;
   options.improve = false;
@@ -337,8 +336,7 @@ TEST(RefinedFigures, FacetsDroppedForTheirChamfersAreAccountedFor) {
   delmesher::Surface s;
   s.vertices = {{0, 0, 0}, {0, 0, 1.2}, {10, 0, 0}, {10, 1.5, 0}};
   s.triangles = {{0, 3, 2}, {0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
-  delmesher::Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  delmesher::Options options = samples::split_surface();
   options.want_exact = true;
   options.tau = 0.07;
   const delmesher::Result result = delmesher::tetrahedralize(s, options);

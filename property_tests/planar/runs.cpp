@@ -35,8 +35,7 @@ Told run_with(const Surface& surface, Options options) {
 }
 
 Told run_of(const Surface& surface, double planar) {
-  Options options;
-  options.surface = delmesher::SurfaceChoice::split;
+  Options options = samples::split_surface();
   options.planar = planar;
   return run_with(surface, options);
 }
