@@ -321,29 +321,30 @@ class PlaneMesh:
 
 
 @dataclasses.dataclass(eq=False)
-class PlaneReport:
-    """What `check_plane` found.
-
-    Attributes
-    ----------
-    valid : bool
-    message : str
-        The first defect; empty if there is none.
-    counts : dict of str to int
-        By kind: "equal vertices", "segment without length", "overlap", "crossing".
-    places : dict of str to (n, 2) int32
-        All of each kind, up to a million: two points ("equal vertices"), or two segments, or one twice.
-    hints : list of str
-        What to do.
-    area : float
-        Of the inside; 0 if it is not valid.
-    """
+class _Found:
     valid: bool
     message: str
     counts: Dict[str, int]
     places: Dict[str, Array]
     hints: List[str]
     warnings: List[str]
+
+
+@dataclasses.dataclass(eq=False)
+class PlaneReport(_Found):
+    """What `check_plane` found.
+
+    Attributes
+    ----------
+    valid, message, hints, warnings
+        As of `Report`.
+    counts : dict of str to int
+        By kind: "equal vertices", "segment without length", "overlap", "crossing".
+    places : dict of str to (n, 2) int32
+        All of each kind, up to a million: two points ("equal vertices"), or two segments, or one twice.
+    area : float
+        Of the inside; 0 if it is not valid.
+    """
     area: float
 
 
@@ -357,7 +358,7 @@ class RepairedPlane:
 
 
 @dataclasses.dataclass(eq=False)
-class Report:
+class Report(_Found):
     """What `check` found.
 
     Attributes
@@ -381,12 +382,7 @@ class Report:
     flipped : bool
         The surface was inside out, which is not a defect.
     """
-    valid: bool
-    message: str
-    counts: Dict[str, int]
     defects: List[Defect]
-    places: Dict[str, Array]
-    warnings: List[str]
     flipped: bool
     components: int
     facets: int
@@ -395,7 +391,6 @@ class Report:
     volume: float
     bbox_diagonal: float
     smallest_local_feature_size: float
-    hints: List[str] = dataclasses.field(default_factory=list)
 
 
 def _indices(values: Any, name: str) -> Array:
@@ -594,6 +589,23 @@ def _shown(progress: Any) -> Iterator[Any]:
         bar.close()
 
 
+def _run(job: str, given: Tuple[Any, ...], progress: Any, options: Mapping[str, Any]) -> Dict[str, Any]:
+    named = _options(job, options)
+    with _shown(progress) as shown:
+        result: Dict[str, Any] = getattr(_core, job)(*given, named, shown)
+    return result
+
+
+def _run_on_surface(job: str, points: Any, triangles: Any, labels: Any, progress: Any,
+                    options: Mapping[str, Any]) -> Tuple[Dict[str, Any], Optional[Mapping[int, str]]]:
+    """The result, and what the labels are called."""
+    points = _read_first(points, triangles)
+    arrays = _surface(points, triangles, labels)
+    result = _run(job, arrays, progress, options)
+    _raise(result, lambda: check(*arrays[:2]))
+    return result, getattr(points, "names", None)
+
+
 @_with_options
 def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
     """Mesh the inside of a closed surface.
@@ -628,13 +640,7 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
     ValueError, TypeError
         An option or an array makes no sense.
     """
-    points = _read_first(points, triangles)
-    arrays = _surface(points, triangles, labels)
-    named = _options("mesh", options)
-    with _shown(progress) as shown:
-        result = _core.mesh(*arrays, named, shown)
-    _raise(result, lambda: check(*arrays[:2]))
-    return _mesh(result, getattr(points, "names", None))
+    return _mesh(*_run_on_surface("mesh", points, triangles, labels, progress, options))
 
 
 @_with_options
@@ -647,13 +653,7 @@ def cdt(points: Any, triangles: Any = None, labels: Any = None, *, progress: Uni
         As in `mesh`.
     **options
     """
-    points = _read_first(points, triangles)
-    arrays = _surface(points, triangles, labels)
-    named = _options("cdt", options)
-    with _shown(progress) as shown:
-        result = _core.cdt(*arrays, named, shown)
-    _raise(result, lambda: check(*arrays[:2]))
-    return _mesh(result, getattr(points, "names", None))
+    return _mesh(*_run_on_surface("cdt", points, triangles, labels, progress, options))
 
 
 def _tetrahedra(given: Any) -> Mesh:
@@ -688,9 +688,7 @@ def improve(mesh: Any, *, progress: Union[Progress, bool, None] = None, **option
         The mesh is not conforming.
     """
     mesh = read_mesh(mesh) if isinstance(mesh, (str, os.PathLike)) else mesh
-    named = _options("improve", options)
-    with _shown(progress) as shown:
-        result = _core.improve(_fields(_tetrahedra(mesh)), named, shown)
+    result = _run("improve", (_fields(_tetrahedra(mesh)),), progress, options)
     _raise(result)
     better = _mesh(result, getattr(mesh, "names", None))
     better.region_names = dict(getattr(mesh, "region_names", {}))
@@ -787,13 +785,8 @@ def remesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: 
     InvalidSurface, LimitReached
         As of `mesh`.
     """
-    points = _read_first(points, triangles)
-    arrays = _surface(points, triangles, labels)
-    named = _options("remesh", options)
-    with _shown(progress) as shown:
-        result = _core.remesh(*arrays, named, shown)
-    _raise(result, lambda: check(*arrays[:2]))
-    return Surface(result["points"], _signed(result["triangles"]), result["labels"], dict(getattr(points, "names", {})),
+    result, names = _run_on_surface("remesh", points, triangles, labels, progress, options)
+    return Surface(result["points"], _signed(result["triangles"]), result["labels"], dict(names or {}),
                    [_in_python(line) for line in result["warnings"]])
 
 
@@ -813,9 +806,8 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
     **options
     """
     no_holes = np.zeros((0, 2)) if holes is None else holes
-    named = _options("plane", options)
-    with _shown(progress) as shown:
-        result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes), named, shown)
+    arrays = (_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes))
+    result = _run("plane", arrays, progress, options)
     _raise_plane(result)
     fields = {f.name: _signed(result[f.name]) for f in dataclasses.fields(PlaneMesh)}
     fields["inside"] = fields["inside"].view(np.bool_)
