@@ -24,10 +24,10 @@ CORNERS = [(v & 1, v >> 1 & 1, v >> 2) for v in range(8)]
 CUBE = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
 
 
-def stl(triangles, place=lambda x, y, z: (x, y, z)):
+def stl(triangles, place=lambda x, y, z: (x, y, z), name="part"):
     points = [place(*corner) for corner in CORNERS]
-    return "solid part\n%sendsolid part\n" % "".join(
-        "facet normal 0 0 0\nouter loop\n%sendloop\nendfacet\n" % "".join("vertex %r %r %r\n" % points[v] for v in t) for t in triangles)
+    return "solid %s\n%sendsolid\n" % (name, "".join(
+        "facet normal 0 0 0\nouter loop\n%sendloop\nendfacet\n" % "".join("vertex %r %r %r\n" % points[v] for v in t) for t in triangles))
 
 
 FILES = {
@@ -36,7 +36,7 @@ FILES = {
     "scan.stl": stl(CUBE),
     "rotated.stl": stl(CUBE, lambda x, y, z: (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z / 3)),
     "air.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (4 * x - 2, 4 * y - 2, 4 * z - 2)),
-    "assembly.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (x + 1, y, z)),
+    "assembly.stl": stl(CUBE, name="copper") + stl(CUBE, lambda x, y, z: (x + 1, y, z), "air"),
     "outline.txt": "0 0\n4 0\n1 1\n0 4\n",
     "names.txt": "1 wall\n",
     "sizes.txt": "0 0 0 0.2\n",

@@ -26,13 +26,13 @@ struct Result {
   std::vector<std::string> warnings;  // e.g. "the surface was inside out and has been flipped"
   TetMesh mesh;                       // empty unless status.ok()
   Surface chamfered;                  // if Options::want_chamfered: rounded, for display
-  std::vector<MeshRegion> regions;    // with Regions::all: number N is regions[N - 1]
+  std::vector<MeshRegion> regions;    // but with Regions::solid: number N is regions[N - 1]
   ExactRecord exact;                  // if Options::want_exact
   Statistics statistics;
 };
 
 // Meshes a closed, manifold, oriented, non-self-intersecting surface (algorithm 2); with
-// Regions::all any set of triangles that meet in common vertices and edges alone, repeated ones
+// other Regions any set of triangles that meet in common vertices and edges alone, repeated ones
 // counting once, and bound a region. Never throws: errors are in Result::status, with a message
 // that names the option, vertex or triangle.
 Result tetrahedralize(const Surface& surface, const Options& options = {});

@@ -55,19 +55,12 @@ Phase phase_of(cdt::CdtStep step) {
 }
 
 bool is_complex(const Session& s) {
-  return s.options.regions == Regions::all;
+  return s.options.regions != Regions::solid;
 }
 
 Status bounds_nothing() {
   return {StatusCode::invalid_surface,
           "the triangles bound no region: all that they divide is open to the outside"};
-}
-
-bool is_flat(const SurfaceTopology& topology, Predicates& predicates) {
-  const auto& [a, b, c] = topology.triangles.front();
-  return std::ranges::all_of(topology.triangles, [&, a = a, b = b, c = c](const auto& t) {
-    return std::ranges::all_of(t, [&](VertexId v) { return predicates.orient3d(a, b, c, v) == 0; });
-  });
 }
 
 // Powers of shorter lengths are no doubles, and a refinement that strives for them need not end.
@@ -107,7 +100,7 @@ Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& reco
   }
   s.surface.enter_given(build_topology(surface, s.points, s.predicates, rules));
   recorder.planar({}, validity);
-  return is_flat(s.surface.topology(), s.predicates) ? bounds_nothing() : Status{};
+  return s.surface.topology().plane_count == 1 ? bounds_nothing() : Status{};
 }
 
 // Sections 4 and 7, in turn until neither leaves anything to the other.
@@ -386,7 +379,8 @@ struct Keeping {
   Recorder& recorder;
   ConformingMesh mesh{};
   std::uint64_t missing = 0, left = 0;
-  std::size_t bare = 0;  // triangles with nothing inside on either side
+  std::size_t bare = 0;                // triangles with nothing inside on either side
+  std::vector<double> region_edges{};  // Options::region_sizes, by region
 
   bool good_enough() const { return missing == 0; }
 
@@ -394,20 +388,35 @@ struct Keeping {
     cdt::CdtResult cdt = plain_cdt(s);
     recorder.tetrahedrized(cdt);
     mesh = std::move(cdt.mesh);
-    bare = 0;
     s.control.enter(Phase::improve);
-    // Local operations need all tetrahedra at a vertex, which hang together with those outside.
-    if (!is_complex(s) || !touches_itself(mesh)) drop_outside();
+    bare = drop_outside_if_apart();
   }
-  void drop_outside() {
+  // Local operations need all tetrahedra at a vertex, which hang together with those outside.
+  std::size_t drop_outside_if_apart() {
+    return !is_complex(s) || !touches_itself(mesh) ? drop_outside() : 0;
+  }
+  std::size_t drop_outside() {
     keep_inside(mesh);
-    if (is_complex(s)) bare += drop_bare_faces(mesh);
+    return is_complex(s) ? drop_bare_faces(mesh) : 0;
+  }
+  // What is not to be written becomes outside.
+  Status choose(const MergedSurface& merged, std::vector<MeshRegion>& regions) {
+    RegionList list = list_regions(merged, s.points, mesh);
+    regions = std::move(list.report.regions);
+    bare += list.bare;
+    if (Status status = find_region_sizes(s.options, regions, region_edges); !status.ok()) {
+      return status;
+    }
+    if (Status status = choose_regions(s.options, regions, mesh); !status.ok()) return status;
+    drop_outside_if_apart();
+    return {};
   }
   bool is_empty() const {
     return std::ranges::count(mesh.region, kOutside) == std::ssize(mesh.region);
   }
   void fill_and_improve(bool unfinished = false) {
     improve::ImproveOptions options = improve_options(Region::interior, s);
+    options.region_edges = region_edges;
     options.keep_surface = true;
     options.unfinished = unfinished;
     improve::ImproveResult improved = improve::improve(std::move(mesh), &s.surface.topology(), {},
@@ -441,12 +450,18 @@ constexpr Step<Keeping> kKeeping[] = {
      [](Keeping& k) { k.tetrahedrize_triangles(); }},
 };
 
-Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder) {
+// `merged`: a complex, whose regions are listed in `regions`.
+Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder,
+                         const MergedSurface* merged = nullptr,
+                         std::vector<MeshRegion>* regions = nullptr) {
   if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
   Keeping keeping{s, recorder};
   keeping.enter_edges();
   climb(keeping, kKeeping, recorder.ladder());
   if (keeping.is_empty()) return bounds_nothing();
+  if (merged != nullptr) {
+    if (Status status = keeping.choose(*merged, *regions); !status.ok()) return status;
+  }
   keeping.fill_and_improve();
   keeping.drop_outside();
   recorder.left_out(keeping.bare);
@@ -493,6 +508,21 @@ Result run_kept(const Surface& surface, const Options& options, const LocalFrame
   return run(
       [&](Session& s, Recorder& recorder) { return mesh_kept_surface(surface, s, recorder); },
       options, frame);
+}
+
+// Every part of space that the surface bounds; repeated triangles count once.
+Result run_complex(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  const MergedSurface merged = merge_repeated(surface);
+  std::vector<MeshRegion> regions;
+  Result result = run(
+      [&](Session& s, Recorder& recorder) {
+        return mesh_kept_surface(merged.surface, s, recorder, &merged, &regions);
+      },
+      options, frame);
+  if (!result.status.ok()) return result;
+  result.regions = std::move(regions);
+  finish_regions(merged, result);
+  return result;
 }
 
 // Whole runs; the best counts.
@@ -579,12 +609,7 @@ Result run_within(const Surface& surface, const Options& options, const LocalFra
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
-  if (options.regions == Regions::all) {
-    const MergedSurface merged = merge_repeated(surface);
-    Result result = in_ordinary_units(merged.surface, options, run_kept);
-    if (result.status.ok()) list_regions(merged, result);
-    return result;
-  }
+  if (options.regions != Regions::solid) return in_ordinary_units(surface, options, run_complex);
   Task& task =
       *(options.surface == SurfaceChoice::keep ? &run_within<run_kept> : &run_within<run_mesh>);
   return in_ordinary_units(surface, options, task);

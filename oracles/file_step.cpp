@@ -90,8 +90,12 @@ void FileStep::check_lengths(const TetComplex& complex, std::span<const Face> su
     return std::max({exact::distance(*complex.points, a, b), exact::distance(*complex.points, b, c),
                      exact::distance(*complex.points, c, a)}) <= longest;
   });
+  check_lengths(complex, std::span<const double>(), fine);
+}
+
+void FileStep::check_lengths(const TetComplex& complex, std::span<const double> each, bool fine) {
   const bool keep = options_.promised.keep;
-  for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, scope())) {
+  for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, each, scope())) {
     const bool edges = lengths.name == "edges";
     if (!(keep && edges && fine)) {
       excuse_long_edges(edges ? "--max-edge" : "--size-field", keep || exact_ != nullptr, lengths,

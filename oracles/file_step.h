@@ -23,6 +23,9 @@ class FileStep : public Step {
                         Neighbours& neighbours);
   // Edges that are longer than promised. `surface`: faces whose edges the mesh may have to keep.
   void check_lengths(const TetComplex& complex, std::span<const Face> surface);
+  // `longest`: the longest edge promised, per tetrahedron, instead of that of the promise. `fine`:
+  // no face of the surface has a longer one.
+  void check_lengths(const TetComplex& complex, std::span<const double> longest, bool fine);
 
  private:
   void turn_all(TetComplex& complex) const;

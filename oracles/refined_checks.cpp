@@ -86,7 +86,7 @@ void RefinedPromises::check() {
   if (options_.promised.tau > 0 || exact_->parameters.tolerance > 0 || dropped) {
     add(check_filter(mesh), "refined-");
   }
-  for (OracleReport& lengths : check_edge_lengths(*mesh.complex, options_.promised, scope())) {
+  for (OracleReport& lengths : check_edge_lengths(*mesh.complex, options_.promised, {}, scope())) {
     add(std::move(lengths), "refined-");
   }
   if (!options_.promised.approximate) add(check_enrichment(mesh));

@@ -49,12 +49,17 @@ std::string RegionsStep::run() {
   TetComplex complex;
   Neighbours neighbours;
   if (!check_tetrahedra(points, true, complex, neighbours)) return {};
-  PartsResult parts;
-  const std::uint64_t split =
-      check_parts(input_, mesh_, complex, neighbours,
-                  options_.promised.strict ? 0 : kRoundedUlps * ulp_, parts);
-  if (split > 0) {
-    report_.unproven.push_back("--regions all (" + std::to_string(split) + " triangles are split)");
+  PartsResult parts = check_parts(input_, mesh_, complex, neighbours, options_.promised,
+                                  options_.promised.strict ? 0 : kRoundedUlps * ulp_);
+  if (parts.split > 0) {
+    report_.unproven.push_back("--regions (" + std::to_string(parts.split) +
+                               " triangles are split)");
+  }
+  const bool by_name =
+      !options_.promised.region_names.empty() || !options_.promised.region_sizes.empty();
+  if (by_name && (!input_.names_read || options_.promised.names)) {
+    report_.unproven.emplace_back("names of regions: these are not read");
+    parts.parts.undecided = parts.parts.violations > 0;
   }
   add(std::move(parts.parts));
   add(std::move(parts.regions));
@@ -65,7 +70,11 @@ std::string RegionsStep::run() {
   angles.checked = complex.tetrahedra.size();
   measure_angles(complex, neighbours, complex.inside, angles);
   add(std::move(angles));
-  check_lengths(complex, input_.triangles);
+  if (parts.longest.empty()) {
+    check_lengths(complex, input_.triangles);
+  } else {
+    check_lengths(complex, parts.longest, parts.triangles_fit);
+  }
   return {};
 }
 

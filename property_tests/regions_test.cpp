@@ -287,6 +287,155 @@ TEST(AllRegions, NeedARegion) {
   EXPECT_NE(result.status.message.find("bound no region"), std::string::npos);
 }
 
+// Solids of cells: for each material all sides, so that walls are given twice.
+Surface solids_of(const Materials& materials) {
+  Builder builder;
+  for (const auto& [cell, material] : materials) {
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2;
+      Cell next = cell;
+      next[axis] += side % 2 != 0 ? 1 : -1;
+      if (at(materials, next) == material) continue;
+      std::array<std::array<double, 3>, 4> corner;
+      for (int k = 0; k < 4; ++k) {
+        Cell c = cell;
+        c[axis] += side % 2;
+        c[(axis + 1) % 3] += k == 1 || k == 2 ? 1 : 0;
+        c[(axis + 2) % 3] += k >= 2 ? 1 : 0;
+        corner[k] = {double(c[0]), double(c[1]), double(c[2])};
+      }
+      builder.square(corner[0], corner[1], corner[2], corner[3], material);
+    }
+  }
+  return builder.surface();
+}
+
+// A cube of 1 with one of 2 in it, and one of 3 beside it that is as large.
+Materials three_materials() {
+  constexpr int kSize = 6;
+  Materials cells;
+  for (int x = 0; x < 2 * kSize; ++x) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int z = 0; z < kSize; ++z) {
+        const bool core = x > 1 && x < 4 && y > 1 && y < 4 && z > 1 && z < 4;
+        cells[{x, y, z}] = x >= kSize ? 3 : core ? 2 : 1;
+      }
+    }
+  }
+  return cells;
+}
+
+Options with_names() {
+  Options options = all_regions();
+  options.label_names = {{1, "shell"}, {2, "core"}, {3, "block"}};
+  return options;
+}
+
+VerifyReport verified(const Surface& surface, const Result& result, const Options& promised) {
+  Polyhedron input = samples::to_polyhedron(surface);
+  input.names_read = true;
+  for (const auto& [label, name] : with_names().label_names) input.names[{2, label}] = name;
+  VerifyReport report;
+  EXPECT_EQ(oracles::verify(input, samples::to_mesh(result.mesh), nullptr,
+                            {.promised = oracles::promise_of(promised)}, report),
+            "");
+  return report;
+}
+
+// By names, or the largest; each promise is kept by its own mesh, and by no other one.
+TEST(SomeRegions, AreThoseThatArePromised) {
+  const Surface surface = solids_of(three_materials());
+  std::vector<Options> choices(5, with_names());
+  const std::vector<std::vector<std::string>> names = {
+      {}, {"core"}, {"shell"}, {"core", "block"}, {}};
+  for (std::size_t n = 1; n < 4; ++n) {
+    choices[n].regions = Regions::named;
+    choices[n].region_names = names[n];
+  }
+  choices[4].regions = Regions::largest;
+  std::vector<Result> results;
+  for (const Options& choice : choices) {
+    results.push_back(delmesher::tetrahedralize(surface, choice));
+    ASSERT_TRUE(results.back().status.ok()) << results.back().status.message;
+    ASSERT_EQ(results.back().regions.size(), 3U);
+  }
+  const std::vector<std::set<int>> written = {{1, 2, 3}, {3}, {2}, {1, 3}, {1}};
+  for (std::size_t n = 0; n < choices.size(); ++n) {
+    const std::vector<std::int32_t>& regions = results[n].mesh.regions;
+    EXPECT_EQ(std::set<int>(regions.begin(), regions.end()), written[n]) << n;
+    for (std::size_t r = 0; r < 3; ++r) {
+      EXPECT_EQ(results[n].regions[r].tetrahedra > 0, written[n].contains(static_cast<int>(r) + 1));
+    }
+    for (std::size_t m = 0; m < choices.size(); ++m) {
+      const VerifyReport report = verified(surface, results[n], choices[m]);
+      EXPECT_EQ(report.verdict, n == m ? oracles::Verdict::exact : oracles::Verdict::broken)
+          << n << " as " << m << "\n"
+          << to_text(report);
+      if (n == m) continue;
+      const oracles::OracleReport* parts = report.find("parts");
+      ASSERT_NE(parts, nullptr);
+      EXPECT_FALSE(parts->passed());
+    }
+  }
+}
+
+// The largest part has a cavity, and what is around it has a smaller volume.
+TEST(SomeRegions, TheLargestIsMeasuredWithoutCavities) {
+  Builder builder;
+  builder.box({0, 0, 0}, {5, 5, 5}, 1);
+  builder.box({0.5, 0.5, 0.5}, {4.5, 4.5, 4.5}, 2);
+  Options options = with_names();
+  options.regions = Regions::largest;
+  const Result result = delmesher::tetrahedralize(builder.surface(), options);
+  ASSERT_TRUE(result.status.ok());
+  EXPECT_NEAR(result.regions[0].volume, 64, 1e-9);
+  EXPECT_EQ(result.mesh.boundary.size(), 12U);
+  const VerifyReport good = verified(builder.surface(), result, options);
+  EXPECT_EQ(good.verdict, oracles::Verdict::exact) << to_text(good);
+  Options around = with_names();
+  around.regions = Regions::named;
+  around.region_names = {"shell"};
+  const Result other = delmesher::tetrahedralize(builder.surface(), around);
+  EXPECT_EQ(verified(builder.surface(), other, options).verdict, oracles::Verdict::broken);
+  EXPECT_EQ(verified(builder.surface(), other, around).verdict, oracles::Verdict::exact);
+}
+
+TEST(SomeRegions, UnknownNamesAreErrorsThatTellTheKnownOnes) {
+  const Surface surface = solids_of(three_materials());
+  Options options = with_names();
+  options.regions = Regions::named;
+  options.region_names = {"core", "copper"};
+  const Result result = delmesher::tetrahedralize(surface, options);
+  EXPECT_EQ(result.status.code, StatusCode::invalid_options);
+  EXPECT_EQ(result.status.message, "no region is called \"copper\": there are block, core, shell");
+  options = with_names();
+  options.region_sizes = {{"copper", 0.5}};
+  EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.code, StatusCode::invalid_options);
+  options.regions = Regions::solid;
+  EXPECT_NE(delmesher::tetrahedralize(surface, options).status.message.find("needs --regions"),
+            std::string::npos);
+}
+
+TEST(SomeRegions, HaveTheirOwnSizes) {
+  const Surface surface = solids_of(three_materials());
+  Options options = with_names();
+  options.region_sizes = {{"block", 1.5}};
+  const Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const VerifyReport report = verified(surface, result, options);
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+  EXPECT_TRUE(report.unproven.empty());
+  // Elsewhere edges are longer.
+  options.region_sizes = {{"block", 1.5}, {"shell", 1.5}};
+  const VerifyReport wrong = verified(surface, result, options);
+  EXPECT_EQ(wrong.verdict, oracles::Verdict::broken);
+  ASSERT_NE(wrong.find("edges"), nullptr);
+  EXPECT_FALSE(wrong.find("edges")->passed());
+  const Result finer = delmesher::tetrahedralize(surface, options);
+  EXPECT_EQ(verified(surface, finer, options).verdict, oracles::Verdict::exact);
+  EXPECT_GT(finer.mesh.tetrahedra.size(), result.mesh.tetrahedra.size());
+}
+
 TEST(AllRegions, AreNotRefinedNorRecordedYet) {
   Builder builder;
   builder.box({0, 0, 0}, {1, 1, 1});
@@ -503,7 +652,7 @@ TEST(AllRegions, SplitTrianglesAreNotDecided) {
       verified(samples::to_polyhedron(coarse.surface()), samples::to_mesh(result.mesh));
   EXPECT_EQ(report.verdict, oracles::Verdict::undecided) << to_text(report);
   ASSERT_EQ(report.unproven.size(), 1U);
-  EXPECT_EQ(report.unproven[0], "--regions all (2 triangles are split)");
+  EXPECT_EQ(report.unproven[0], "--regions (2 triangles are split)");
 }
 
 }  // namespace

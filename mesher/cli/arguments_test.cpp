@@ -276,6 +276,23 @@ TEST(Arguments, OfImprove) {
   }
 }
 
+TEST(Arguments, OfRegions) {
+  const Options some = options_of<Options>(
+      parse({"in.stl", "-o", "a.msh", "--regions", "copper,air", "--max-edge", "2,copper=0.5"}));
+  EXPECT_EQ(some.regions, Regions::named);
+  EXPECT_EQ(some.region_names, std::vector<std::string>({"copper", "air"}));
+  EXPECT_EQ(some.max_edge, 2);
+  ASSERT_EQ(some.region_sizes.size(), 1U);
+  EXPECT_EQ(some.region_sizes[0].region, "copper");
+  EXPECT_EQ(some.region_sizes[0].max_edge, 0.5);
+  EXPECT_EQ(options_of<Options>(parse({"in.stl", "-o", "a.msh", "--regions=largest"})).regions,
+            Regions::largest);
+  expect_usage_error({"in.stl", "-o", "a.msh", "--regions", "copper,"}, "not names of regions");
+  for (const char* wrong : {"1,2", "copper=0", "=1", "copper=", "1,", "copper=1,x"}) {
+    expect_usage_error({"in.stl", "-o", "a.msh", "--max-edge", wrong}, "not lengths X or REGION=X");
+  }
+}
+
 TEST(Arguments, HelpAndVersion) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--help"}, {"-h"}, {"mesh", "--help"}, {"--version"}}) {

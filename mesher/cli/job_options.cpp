@@ -15,6 +15,7 @@ using options::argument_name;
 using options::Bounds;
 using options::Kind;
 using options::Value;
+using Lists = options::Text::Lists;
 
 constexpr const char* kAsPaper = "as_paper";
 constexpr const char* kPreset = "preset";
@@ -92,6 +93,22 @@ CLI::Validator number_within(const Bounds& bounds, bool whole,
       "NUMBER");
 }
 
+// What the table takes as a list. A number alone is checked as others are.
+CLI::Validator list_of(const Value& option) {
+  const std::string name(option.text.name);
+  const bool names = option.text.lists == Lists::regions;
+  return CLI::Validator(
+      [name, names,
+       number = number_within(bounds_of(option), false)](std::string& text) -> std::string {
+        if (!names && text.find_first_of("=,") == std::string::npos) return number(text);
+        Options any;
+        if (options::set(any, name, std::string_view(text))) return "";
+        return std::string("not ") + (names ? "names of regions" : "lengths X or REGION=X") +
+               " with commas: " + text;
+      },
+      names ? "NAMES" : "NUMBER");
+}
+
 std::vector<std::string> words_of(const Value& option) {
   if (option.kind == Kind::on_off) return {"on", "off"};
   std::vector<std::string> words;
@@ -108,6 +125,7 @@ bool is_flag(const Value& option) {
 // "X", "N", "on|off", "FILE"
 std::string type_of(const Value& option) {
   if (option.kind == Kind::sources) return "FILE";
+  if (option.text.lists == Lists::regions) return joined(words_of(option), "|") + "|NAMES";
   if (option.kind == Kind::number) return "X";
   return option.kind == Kind::count ? "N" : joined(words_of(option), "|");
 }
@@ -137,7 +155,9 @@ void add_option(CLI::App& app, GivenOptions& given, const Value& option) {
       argument, [&given, name](const std::string& text) { given[name] = text; }, help_of(option));
   const bool numeric = option.kind == Kind::number || option.kind == Kind::count;
   const std::vector<std::string> words = words_of(option);
-  if (option.text.unit == options::Unit::length_or_share) {
+  if (option.text.lists != Lists::nothing) {
+    added->check(list_of(option));
+  } else if (option.text.unit == options::Unit::length_or_share) {
     added->check(length_or_share(option.text.bounds));
   } else if (numeric) {
     added->check(number_within(bounds_of(option), option.kind == Kind::count, words));

@@ -37,6 +37,9 @@ double value_given(const GivenOptions& given, const options::Value& value);
 template <class JobOptions>
 void take(const GivenOptions& given, JobOptions& job) {
   for (const options::Value& option : options::values_of(job)) {
+    const auto found = given.find(option.text.name);
+    const bool is_list = option.text.lists != options::Text::Lists::nothing && found != given.end();
+    if (is_list && options::set(job, option.text.name, std::string_view(found->second))) continue;
     options::set(job, option.text.name, value_given(given, option));
   }
 }

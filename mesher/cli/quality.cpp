@@ -257,16 +257,18 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
   }
   base::sort_unique(edges);
   // A surface that is kept has the edges that were given, which are told apart.
-  std::vector<std::array<std::uint32_t, 2>> given, rest;
-  if (options.surface == SurfaceChoice::keep) {
+  std::vector<std::array<std::uint32_t, 2>> surface, given, rest;
+  if (options.surface == SurfaceChoice::keep || options.regions != Regions::solid) {
     for (const auto& face : mesh.boundary) {
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t v = face[i], w = face[(i + 1) % 3];
-        given.push_back({std::min(v, w), std::max(v, w)});
+        surface.push_back({std::min(v, w), std::max(v, w)});
       }
     }
   }
-  base::sort_unique(given);
+  base::sort_unique(surface);
+  std::set_intersection(edges.begin(), edges.end(), surface.begin(), surface.end(),
+                        std::back_inserter(given));
   std::set_difference(edges.begin(), edges.end(), given.begin(), given.end(),
                       std::back_inserter(rest));
   std::vector<std::string> warnings;
@@ -303,6 +305,29 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
   }
   if (!sizes.empty()) {
     warn("--size-field", [&](const Vec3& a, const Vec3& b) { return sizes.is_too_long(a, b); });
+  }
+  return warnings;
+}
+
+std::vector<std::string> region_edge_warnings(const Result& result, const Options& options) {
+  std::vector<std::string> warnings;
+  const TetMesh& mesh = result.mesh;
+  for (const RegionSize& size : options.region_sizes) {
+    TetMesh part;
+    part.vertices = mesh.vertices;
+    part.boundary = mesh.boundary;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      const auto& label = result.regions[static_cast<std::size_t>(mesh.regions[t] - 1)].label;
+      const auto name = label ? options.label_names.find(*label) : options.label_names.end();
+      if (name == options.label_names.end() || name->second != size.region) continue;
+      part.tetrahedra.push_back(mesh.tetrahedra[t]);
+    }
+    Options of_part;
+    of_part.regions = Regions::all;
+    of_part.max_edge = size.max_edge;
+    for (const std::string& warning : edge_warnings(part, of_part)) {
+      warnings.push_back(size.region + ": " + warning);
+    }
   }
   return warnings;
 }

@@ -20,5 +20,7 @@ std::vector<std::string> quality_warnings(const Result& result, double delta);
 // Warnings where edges of the mesh are longer than max_edge or the size field allow: how many, and
 // the longest. Those of corners that come back after refinement are not refined.
 std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& options);
+// The same of Options::region_sizes, in their regions.
+std::vector<std::string> region_edge_warnings(const Result& result, const Options& options);
 
 }  // namespace delmesher::cli

@@ -85,6 +85,12 @@ Json parameters_json(const Command& command) {
           option.kind == options::Kind::sources ? Json(command.sizes_file) : value_json(option);
     }
   }
+  if (const auto* mesh = std::get_if<Options>(&command.options)) {
+    if (!mesh->region_names.empty()) parameters["regions"] = mesh->region_names;
+    for (const RegionSize& size : mesh->region_sizes) {
+      parameters["max_edge_in"][size.region] = size.max_edge;
+    }
+  }
   if (command.label_angle > 0) parameters["label_by_angle"] = command.label_angle;
   return parameters;
 }
@@ -320,6 +326,25 @@ std::string kept_text(const std::string& file, const Statistics& s) {
          " tetrahedra, as predicted";
 }
 
+namespace {
+
+// A sum of roundings.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+// By number; 0 is the outside.
+std::string region_name(const io::LabelNames& names, std::int32_t number) {
+  const auto name = names.find(number);
+  return number == 0           ? "outside"
+         : name != names.end() ? name->second
+                               : "region " + std::to_string(number);
+}
+
+}  // namespace
+
 io::LabelNames region_names(const std::vector<MeshRegion>& regions, const io::LabelNames& labels) {
   io::LabelNames names;
   for (std::size_t n = 0; n < regions.size(); ++n) {
@@ -335,10 +360,9 @@ std::string regions_text(const std::string& file, const std::vector<MeshRegion>&
   std::string text =
       file + ": " + std::to_string(regions.size()) + (regions.size() == 1 ? " region" : " regions");
   for (std::size_t n = 0; n < std::min(regions.size(), kMost); ++n) {
-    const auto name = names.find(static_cast<std::int32_t>(n + 1));
-    text += (n == 0 ? ": " : ", ") +
-            (name != names.end() ? name->second : "region " + std::to_string(n + 1)) +
-            " of volume " + number(regions[n].volume);
+    text += (n == 0 ? ": " : ", ") + region_name(names, static_cast<std::int32_t>(n + 1)) +
+            " of volume " + rounded(regions[n].volume) +
+            (regions[n].tetrahedra == 0 ? " (not written)" : "");
   }
   if (regions.size() > kMost) text += ", and " + std::to_string(regions.size() - kMost) + " more";
   return text;
@@ -386,6 +410,83 @@ std::vector<std::string> limits_texts(const Statistics& s) {
   return texts;
 }
 
+namespace {
+
+std::string wall_name(const ComplexReport::Wall& wall, const io::LabelNames& names) {
+  const auto& [a, b] = wall.regions;
+  return a == b ? region_name(names, a) + " on both sides"  // a sheet
+                : region_name(names, a == 0 ? b : a) + "|" + region_name(names, a == 0 ? a : b);
+}
+
+std::array<double, 3> middle(const ComplexReport::Open& open) {
+  std::array<double, 3> x{};
+  for (std::size_t k = 0; k < 3; ++k) x[k] = (open.border[0][k] + open.border[1][k]) / 2;
+  return x;
+}
+
+std::string open_text(const ComplexReport::Open& open, const io::LabelNames& labels,
+                      const io::LabelNames& names) {
+  const std::array<double, 3> at = middle(open);
+  return "`" + io::label_name(labels, open.label) + "` is open: " +
+         (open.region == 0
+              ? "one region with the outside, through the gap"
+              : region_name(names, open.region) + " is on both of its sides, around the border") +
+         " at (" + number(at[0]) + ", " + number(at[1]) + ", " + number(at[2]) + ")";
+}
+
+std::string complex_text(const ComplexReport& report, const io::LabelNames& labels) {
+  std::string out;
+  const io::LabelNames names = region_names(report.regions, labels);
+  const auto list = [&](const std::string& title, std::size_t count, const auto& line) {
+    constexpr std::size_t kMost = 20;
+    if (count > 0) out += "  " + title + ": " + std::to_string(count) + "\n";
+    for (std::size_t n = 0; n < std::min(count, kMost); ++n) out += "    " + line(n) + "\n";
+    if (count > kMost) out += "    and " + std::to_string(count - kMost) + " more\n";
+  };
+  list("regions", report.regions.size(), [&](std::size_t n) {
+    return region_name(names, static_cast<std::int32_t>(n + 1)) + ", volume " +
+           rounded(report.regions[n].volume);
+  });
+  list("walls", report.walls.size(), [&](std::size_t n) {
+    const ComplexReport::Wall& wall = report.walls[n];
+    return wall_name(wall, names) + ", area " + rounded(wall.area) + ", " +
+           std::to_string(wall.triangles) + (wall.triangles == 1 ? " triangle" : " triangles");
+  });
+  for (const ComplexReport::Open& open : report.open) {
+    out += "  " + open_text(open, labels, names) + "\n";
+  }
+  return out;
+}
+
+void put_complex(const ComplexReport& report, const io::LabelNames& labels, Json& json) {
+  if (report.walls.empty()) return;
+  const io::LabelNames names = region_names(report.regions, labels);
+  Json regions = Json::array(), walls = Json::array(), open = Json::array();
+  for (std::size_t n = 0; n < report.regions.size(); ++n) {
+    const auto number = static_cast<std::int32_t>(n + 1);
+    regions.push_back({{"number", number},
+                       {"name", region_name(names, number)},
+                       {"volume", report.regions[n].volume}});
+  }
+  for (const ComplexReport::Wall& wall : report.walls) {
+    walls.push_back({{"regions", wall.regions},
+                     {"name", wall_name(wall, names)},
+                     {"triangles", wall.triangles},
+                     {"area", wall.area}});
+  }
+  for (const ComplexReport::Open& label : report.open) {
+    open.push_back({{"name", io::label_name(labels, label.label)},
+                    {"label", label.label},
+                    {"region", label.region},
+                    {"at", middle(label)}});
+  }
+  json["regions"] = regions;
+  json["walls"] = walls;
+  json["open"] = open;
+}
+
+}  // namespace
+
 std::string check_text(const std::string& file, const Surface& surface, const io::LabelNames& names,
                        const SurfaceReport& report) {
   std::string out = file + ": ";
@@ -426,6 +527,7 @@ std::string check_text(const std::string& file, const Surface& surface, const io
       out += "    and " + std::to_string(report.defect_counts[kind] - listed) + " more\n";
     }
   }
+  out += complex_text(report.complex, names);
   if (!report.status.ok()) {
     for (const std::string& hint : surface_hints(surface, report)) out += "  hint: " + hint + "\n";
   }
@@ -471,6 +573,7 @@ std::string check_json(const std::string& file, const Surface& surface, const io
     json["smallest_local_feature_size"] = report.smallest_local_feature_size;
     json["faces"] = faces_json(surface, names);
   }
+  put_complex(report.complex, names, json);
   json["warnings"] = report.warnings;
   json["defect_count"] = total_defects(report);
   json["defect_counts"] = counts;

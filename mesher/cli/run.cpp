@@ -28,6 +28,7 @@ class Runner : RunSteps {
   int read();
   int label_by_angle();
   int check();
+  Options with_names(Options options) const;
   int mesh();
   int remesh();
   int write_surface_defects(const SurfaceReport& report) const;
@@ -69,7 +70,7 @@ int Runner::label_by_angle() {
 }
 
 int Runner::check() {
-  const SurfaceReport report = check_surface(surface_);
+  const SurfaceReport report = check_surface(surface_, true);
   const StatusCode code = report.status.code;
   if (code == StatusCode::ok || code == StatusCode::invalid_surface) {
     streams_.out(command_.json ? check_json(command_.input, surface_, names_, report)
@@ -122,13 +123,20 @@ io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) 
   return status;
 }
 
+// A region is chosen by the name of its label.
+Options Runner::with_names(Options options) const {
+  options.label_names = names_;
+  return options;
+}
+
 int Runner::mesh() {
   const auto* options = std::get_if<Options>(&command_.options);  // else those of cdt
-  Result result =
-      options != nullptr
-          ? call(*options, [&](const Options& o) { return library_.tetrahedralize(surface_, o); })
-          : call(std::get<CdtOptions>(command_.options),
-                 [&](const CdtOptions& o) { return library_.constrained_delaunay(surface_, o); });
+  Result result = options != nullptr
+                      ? call(with_names(*options),
+                             [&](const Options& o) { return library_.tetrahedralize(surface_, o); })
+                      : call(std::get<CdtOptions>(command_.options), [&](const CdtOptions& o) {
+                          return library_.constrained_delaunay(surface_, o);
+                        });
   note_interruption(result.status);
   count_defects(result.status);
   const Statistics& s = result.statistics;
@@ -151,12 +159,15 @@ int Runner::mesh() {
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
   if (result.status.ok() && options != nullptr) {
-    const bool kept = options->surface == SurfaceChoice::keep || options->regions == Regions::all ||
-                      s.ladder[Rung::keep_surface] > 0;
+    const bool kept = options->surface == SurfaceChoice::keep ||
+                      options->regions != Regions::solid || s.ladder[Rung::keep_surface] > 0;
     for (std::string& warning : quality_warnings(result, kept ? 0 : options->delta)) {
       result.warnings.push_back(std::move(warning));
     }
     for (std::string& warning : edge_warnings(result.mesh, *options)) {
+      result.warnings.push_back(std::move(warning));
+    }
+    for (std::string& warning : region_edge_warnings(result, with_names(*options))) {
       result.warnings.push_back(std::move(warning));
     }
   }

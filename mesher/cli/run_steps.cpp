@@ -122,9 +122,10 @@ void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std
        std::to_string(cells) + " " + cell_name);
 }
 
-SurfaceReport RunSteps::check_surface(const Surface& surface) const {
-  const auto check = std::visit(
+SurfaceReport RunSteps::check_surface(const Surface& surface, bool want_regions) const {
+  CheckOptions check = std::visit(
       [](const auto& job) { return options::taken_from<CheckOptions>(job); }, command_.options);
+  check.want_regions = want_regions;
   return call(
       check, [&](const CheckOptions& options) { return library_.check_surface(surface, options); });
 }

@@ -59,6 +59,8 @@ struct Text {
   bool promised = false;           // the oracles check it, if named in --promised
   bool with_kept_surface = false;  // SurfaceChoice::keep uses it
   std::array<Word, 3> words = {};
+  // What else its value may be, with commas: names of regions, or also REGION=VALUE.
+  enum class Lists : std::uint8_t { nothing, regions, values_of_regions } lists = Lists::nothing;
 };
 
 template <class... Members>
@@ -107,10 +109,13 @@ inline constexpr std::tuple kTable{
         &Options::surface),
     Row({.name = "regions",
          .help = "solid: what the triangles bound is one; all: each part of space that they divide "
-                 "off is one, with walls and sheets; needs the surface kept",
+                 "off is one, with walls and sheets, the surface kept; largest, or names with "
+                 "commas: only these are written",
+         .bounds = {.high = 3},
          .promised = true,
          .with_kept_surface = true,
-         .words = {{{"solid", 0}, {"all", 1}}}},
+         .words = {{{"solid", 0}, {"all", 1}, {"largest", 2}}},
+         .lists = Text::Lists::regions},
         &Options::regions),
     Row({.name = "strict",
          .help = "with --surface keep: fail where an added vertex cannot leave the surface",
@@ -211,13 +216,21 @@ inline constexpr std::tuple kTable{
          .promised = true},
         &Options::chamfer_radius, &PlaneOptions::chamfer_radius),
     Row({.name = "max_edge",
-         .help = "largest edge",
+         .help = "largest edge; with --regions also in some, as in 2,copper=0.5",
          .bounds = kAnyLength,
          .unit = Unit::length,
          .zero_is_none = true,
          .promised = true,
-         .with_kept_surface = true},
-        &Options::max_edge, &PlaneOptions::max_edge),
+         .with_kept_surface = true,
+         .lists = Text::Lists::values_of_regions},
+        &Options::max_edge),
+    Row({.name = "max_edge",
+         .help = "largest edge",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true,
+         .promised = true},
+        &PlaneOptions::max_edge),
     Row({.name = "max_edge",
          .help = "no longer edge is made",
          .bounds = kAnyLength,
@@ -434,7 +447,51 @@ inline double share_of(std::string_view text) {
   return error == std::errc() && stop == end && share > 0 ? -share : 0;
 }
 
-// The same by a word of the row, or a share.
+// The parts of a list with commas.
+inline std::vector<std::string_view> parts_of(std::string_view list) {
+  std::vector<std::string_view> parts;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    parts.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+  return parts;
+}
+
+// A value of its own, at most one, and REGION=VALUE; false if a part is neither.
+template <class JobOptions>
+bool set_in_regions(JobOptions& options, const Text& text, std::string_view list) {
+  bool own = false;
+  for (const std::string_view part : parts_of(list)) {
+    const std::size_t at = part.rfind('=');
+    const std::string_view number = at == part.npos ? part : part.substr(at + 1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc() || end != number.data() + number.size() || !(value > 0) ||
+        !text.bounds.allow(value) || at == 0 || (at == part.npos && own)) {
+      return false;
+    }
+    if (at != part.npos) {
+      options.region_sizes.push_back({std::string(part.substr(0, at)), value});
+    } else {
+      own = set(options, text.name, value);
+    }
+  }
+  return true;
+}
+
+// Names of regions, none of them empty.
+template <class JobOptions>
+bool set_regions(JobOptions& options, std::string_view list) {
+  for (const std::string_view name : parts_of(list)) {
+    if (name.empty()) return false;
+    options.region_names.emplace_back(name);
+  }
+  options.regions = Regions::named;
+  return true;
+}
+
+// The same by a word of the row, a share, or a list.
 template <class JobOptions>
 bool set(JobOptions& options, std::string_view name, std::string_view word) {
   for (const Value& option : values_of(options)) {
@@ -444,6 +501,12 @@ bool set(JobOptions& options, std::string_view name, std::string_view word) {
     }
     const double share = share_of(word);
     if (option.text.unit == Unit::length_or_share && share != 0) return set(options, name, share);
+    if constexpr (requires { options.region_names; }) {
+      if (option.text.lists == Text::Lists::regions) return set_regions(options, word);
+      if (option.text.lists == Text::Lists::values_of_regions) {
+        return set_in_regions(options, option.text, word);
+      }
+    }
   }
   return false;
 }
@@ -477,6 +540,10 @@ void scale_lengths(JobOptions& options, int exponent) {
       }
     }
   });
+  if constexpr (requires { options.region_sizes; }) {
+    for (RegionSize& size : options.region_sizes)
+      size.max_edge = std::ldexp(size.max_edge, exponent);
+  }
 }
 
 }  // namespace delmesher::options

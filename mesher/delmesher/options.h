@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "as_paper.h"
@@ -23,14 +25,22 @@ enum class SurfaceChoice : std::uint8_t {
   automatic
 };
 
-// What the triangles bound.
+// What the triangles bound, and what of it is written.
 enum class Regions : std::uint8_t {
   // One solid: they are closed, manifold surfaces, and what an odd number of them surrounds is in.
   solid,
   // Every bounded part of space that they divide off is a region of its own, with all triangles as
   // faces of the mesh: walls between regions, and open sheets within one. They are any set that
   // meets in common vertices and edges alone. The surface is kept.
-  all
+  all,
+  largest,  // the same, but only the region of the largest volume is written
+  named     // and only those of Options::region_names
+};
+
+// Of the regions of this name.
+struct RegionSize {
+  std::string region;
+  double max_edge = 0;  // no longer edge in them
 };
 
 // Of tetrahedralize().
@@ -47,6 +57,9 @@ struct Options : Limits {
   // and if the surface has edges above max_edge.
   SurfaceChoice surface = SurfaceChoice::automatic;
   Regions regions = Regions::solid;
+  std::vector<std::string> region_names;
+  // What labels are called: a region has the name of the solid that it lies in.
+  std::map<std::int32_t, std::string> label_names;
   // A vertex on a kept surface that finds no way off it ends the run with Limit::precision. It is
   // counted otherwise.
   bool strict = false;
@@ -88,7 +101,8 @@ struct Options : Limits {
   // plane (planar/flatness.h, planar/resolution.h), and where edges show more noise, 16 times
   // that (planar/edge_bends.h), at most 2^-12.
   double planar = kPlanarAuto;
-  double max_edge = 0;  // largest edge wanted inside; 0: no bound
+  double max_edge = 0;                   // largest edge wanted inside; 0: no bound
+  std::vector<RegionSize> region_sizes;  // smaller ones in regions, with other Regions than solid
   // Smaller edges in places: nowhere along an edge inside is it longer than size + size_growth *
   // distance, of any of these sources and its distance. Empty: no bound.
   std::vector<SizeSource> size_field;
@@ -146,6 +160,7 @@ struct CheckOptions : TimeLimit {
   double corner = 20;           // the same for corners between two edges
   double planar = kPlanarAuto;  // as in Options: the facets that are counted
   unsigned threads = 1;         // as in Limits
+  bool want_regions = false;    // fill SurfaceReport::complex
 };
 
 // Of repair_surface().

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "run.h"
+#include "tet_mesh.h"
 
 namespace delmesher {
 
@@ -29,6 +30,25 @@ struct Defect {
   std::string message;  // one line naming them, e.g. "triangles 12 and 840 intersect"
 };
 
+// The regions that a complex of triangles bounds; 0 is the outside.
+struct ComplexReport {
+  std::vector<MeshRegion> regions;  // number N is regions[N - 1]
+  // The triangles between two regions, the smaller number first.
+  struct Wall {
+    std::array<std::int32_t, 2> regions;
+    std::uint64_t triangles = 0;
+    double area = 0;
+  };
+  std::vector<Wall> walls;
+  // Triangles of a label that are not closed and have one region on both sides: a sheet, or a solid
+  // with a leak. One of their border edges.
+  struct Open {
+    std::int32_t label, region;
+    std::array<std::array<double, 3>, 2> border;
+  };
+  std::vector<Open> open;
+};
+
 // Defects and properties of a surface.
 struct SurfaceReport {
   Status status;                // ok, invalid_surface, interrupted ...
@@ -48,6 +68,8 @@ struct SurfaceReport {
   std::uint64_t facets = 0, planar_facets = 0, acute_vertices = 0, acute_edges = 0;
   double planar_bound = 0;                 // in input units
   double smallest_local_feature_size = 0;  // distance of the closest non-incident elements
+  // If CheckOptions::want_regions, and the surface is no single solid, but a complex.
+  ComplexReport complex;
 };
 
 // Name of a kind of defect: "open edge", "self-intersection", ...

@@ -14,11 +14,11 @@ struct TetMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
   std::vector<std::uint8_t> inside;  // per tetrahedron: 1 if contained in the solid
-  // Per tetrahedron, of meshes from elsewhere and with Regions::all; empty: 1 inside the solid, 2
+  // Per tetrahedron, of meshes from elsewhere and with regions; empty: 1 inside the solid, 2
   // outside.
   std::vector<std::int32_t> regions;
   // Triangles tiling the input surface, counter-clockwise seen from outside the solid, with
-  // Regions::all as given; with the label of the input and the id of the facet they tile (its
+  // regions as given; with the label of the input and the id of the facet they tile (its
   // smallest input triangle index).
   std::vector<std::array<std::uint32_t, 3>> boundary;
   std::vector<std::int32_t> boundary_labels;
@@ -30,8 +30,8 @@ struct TetMesh {
 
 // A part of space that the surface bounds.
 struct MeshRegion {
-  double volume = 0;  // rounded
-  std::uint64_t tetrahedra = 0;
+  double volume = 0;             // rounded
+  std::uint64_t tetrahedra = 0;  // none if it is not written
   // Of the smallest solid that it lies in, by volume, of those that the triangles of one label
   // bound. None: it is in none.
   std::optional<std::int32_t> label = {};

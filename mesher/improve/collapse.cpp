@@ -46,7 +46,8 @@ bool Collapse::Judge::add(TetId t, int i, VertexId w, float& score) const {
   score = std::min(score, state.score(q));
   if (!State::reaches(q, least)) return false;
   for (int k = 0; k < 4; ++k) {
-    if (k != i && state.too_long(state.position(w), state.position(tet[k]))) return false;
+    if (k != i && state.too_long(state.position(w), state.position(tet[k]), state.mesh.region(t)))
+      return false;
   }
   return true;
 }

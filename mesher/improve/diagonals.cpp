@@ -278,10 +278,11 @@ class Entry {
   bool becomes_too_long(const Place& place) const {
     const VertexId v = move_.vertex();
     return std::ranges::any_of(move_.star(), [&](TetId t) {
+      const RegionId region = state_.mesh.region(t);
       return std::ranges::any_of(state_.mesh.tet(t), [&](VertexId w) {
         const Vec3& end = state_.position(w);
-        return w != v && state_.too_long(place.position, end) &&
-               !state_.too_long(state_.position(v), end);
+        return w != v && state_.too_long(place.position, end, region) &&
+               !state_.too_long(state_.position(v), end, region);
       });
     });
   }
@@ -365,7 +366,7 @@ class Entry {
     if (next == kNone || cavity_.cavity().size() >= kMost) return false;
     if (state_.mesh.facet(t, i) != kNone && !cavity_.is_own(t, i)) return false;
     const Vec3& apex = state_.position(state_.mesh.tet(next)[state_.mesh.mirror(t, i)]);
-    return !state_.too_long(place.position, apex);
+    return !state_.too_long(place.position, apex, state_.mesh.region(next));
   }
   // Is the point on that side of the edge where the face is that goes?
   bool sees(const Cavity::FaceEdge& edge, const Place& place) {

@@ -66,11 +66,12 @@ class EdgeRemoval {
              (failed_[t] > state_.changed_at(a_) || failed_[t] > state_.changed_at(b_));
     }
     void begin(RegionId region) {
+      region_ = region;
       counts_ = state_.counts_in(region);
       asked_ = counts_ ? least_ : Quality{};
     }
     bool may_join(VertexId v, VertexId w) const {
-      return !counts_ || !state_.too_long(state_.position(v), state_.position(w));
+      return !counts_ || !state_.too_long(state_.position(v), state_.position(w), region_);
     }
     bool add(const Tet& tet, Filling& filling) const {
       const Quality q = state_.quality_of(tet, asked_);
@@ -94,6 +95,7 @@ class EdgeRemoval {
     std::span<const std::uint32_t> failed_;
     Aim aim_ = Aim::best_worst;
     Quality least_, asked_;
+    RegionId region_ = kOutside;  // of the tetrahedra around the edge
     bool counts_ = true;
   };
 

@@ -18,6 +18,7 @@ class FaceRemoval {
   struct Judge {
     using Value = Quality;
     const State& state;
+    RegionId region = kOutside;  // of the tetrahedra that are replaced
 
     Quality value_of(const Tet& tet, RegionId) const { return state.quality_of(tet); }
     static bool is_possible(const Quality& q) { return q.dihedral > 0; }
@@ -27,7 +28,7 @@ class FaceRemoval {
     }
     static Quality both(const Quality& a, const Quality& b) { return worse(a, b); }
     bool may_join(VertexId v, VertexId w) const {
-      return !state.too_long(state.position(v), state.position(w));
+      return !state.too_long(state.position(v), state.position(w), region);
     }
   };
 

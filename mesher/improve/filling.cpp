@@ -52,7 +52,9 @@ void Filling::find_sizes() {
   std::priority_queue<std::pair<double, VertexId>> from;  // the smallest size first
   for (VertexId v = 0; v < size_.size(); ++v) {
     const double mean = edges[v] > 0 ? size_[v] / edges[v] : HUGE_VAL;
-    size_[v] = std::min(mean, allowed_at(state_.position(v)));
+    const bool inside = edges[v] == 0 && mesh.incident(v) != kNone;
+    const RegionId region = inside ? mesh.region(mesh.incident(v)) : kOutside;
+    size_[v] = std::min(mean, allowed_at(state_.position(v), region));
     if (edges[v] > 0) from.emplace(-size_[v], v);
   }
   // Vertices inside that are there already: as for new ones.
@@ -72,10 +74,14 @@ void Filling::find_sizes() {
   }
 }
 
-double Filling::allowed_at(const Vec3& x) const {
-  double longest = goals_.max_edge > 0 ? goals_.max_edge : HUGE_VAL;
-  if (goals_.sizes != nullptr) longest = std::min(longest, goals_.sizes->at(x));
-  return kOfLongest * longest;
+double Filling::allowed_in(RegionId region) const {
+  const double longest = goals_.max_edge_in(region);
+  return longest > 0 ? kOfLongest * longest : HUGE_VAL;
+}
+
+double Filling::allowed_at(const Vec3& x, RegionId region) const {
+  const double allowed = allowed_in(region);
+  return goals_.sizes != nullptr ? std::min(allowed, kOfLongest * goals_.sizes->at(x)) : allowed;
 }
 
 void Filling::bound_points() {
@@ -84,7 +90,7 @@ void Filling::bound_points() {
   for (TetId t = 0; t < mesh.slots(); ++t) {
     if (!mesh.alive(t) || !state_.counts(t)) continue;
     const Tet& v = mesh.tet(t);
-    double least = HUGE_VAL;
+    double least = allowed_in(mesh.region(t));
     for (const VertexId w : v) least = std::min(least, size_[w]);
     const Vec3& a = state_.position(v[0]);
     const double volume =
@@ -99,7 +105,7 @@ void Filling::bound_points() {
 double Filling::mean_size(TetId t) const {
   double sum = 0;
   for (const VertexId v : state_.mesh.tet(t)) sum += size_[v];
-  return sum / 4;
+  return std::min(sum / 4, allowed_in(state_.mesh.region(t)));
 }
 
 Filling::Circumcentre Filling::circumcentre(TetId t) const {
@@ -214,7 +220,7 @@ bool Filling::cut_back(TetId start, const Vec3& x) {
 }
 
 double Filling::size_at(std::span<const TetId> cavity, const Vec3& x) const {
-  double size = allowed_at(x);
+  double size = allowed_at(x, state_.mesh.region(cavity.front()));
   for (const TetId t : cavity) {
     for (const VertexId v : state_.mesh.tet(t)) {
       size = std::min(size, size_[v] + kGrowth * distance(x, state_.position(v)));

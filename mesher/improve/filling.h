@@ -63,7 +63,9 @@ class Filling {
 
   void find_sizes();
   void bound_points();
-  double allowed_at(const Vec3& x) const;
+  // What max_edge, and what the size field besides, allow in a region.
+  double allowed_in(RegionId region) const;
+  double allowed_at(const Vec3& x, RegionId region) const;
   double mean_size(TetId t) const;
   Circumcentre circumcentre(TetId t) const;
   void note(TetId t);

@@ -20,6 +20,7 @@ Goals goals_of(const ImproveOptions& options) {
           .floor = squared_sine(kFlattestDihedral),
           .max_edge = options.max_edge,
           .sizes = options.sizes != nullptr && !options.sizes->empty() ? options.sizes : nullptr,
+          .region_edges = options.region_edges,
           .as_given = options.as_given,
           .everywhere = options.region == Region::hull,
           .nearly_good = options.keep_surface ? 0.8F : 0.6F};

@@ -30,8 +30,9 @@ struct Sparing {
 struct ImproveOptions {
   double delta = 14.47;  // degrees: no face angle below it is made, unless one was there
   double max_edge = 0;   // no edge longer than this is made; 0: any
-  const SizeField* sizes = nullptr;  // nor than these allow
-  Region region = Region::interior;  // which tetrahedra are to be good
+  const SizeField* sizes = nullptr;           // nor than these allow
+  std::span<const double> region_edges = {};  // the same as max_edge by region; empty: none
+  Region region = Region::interior;           // which tetrahedra are to be good
   // Of a planarized surface: new tetrahedra are positive on the surface as given, too.
   bool as_given = false;
   Sparing sparing = {};

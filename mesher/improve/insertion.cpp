@@ -107,7 +107,8 @@ bool Insertion::fits(const Place& place, const Quality& before) {
     return State::reaches(face.value, least) && state_.is_positive_with(tet, face.face, place) &&
            std::ranges::none_of(kFace[face.face], [&](int k) {
              return state_.counts(face.tet) &&
-                    state_.too_long(place.position, state_.position(tet[k]));
+                    state_.too_long(place.position, state_.position(tet[k]),
+                                    state_.mesh.region(face.tet));
            });
   });
 }

@@ -128,7 +128,8 @@ bool Relocation::tile(FacetId facet, Wedge& wedge) {
     tilings_.push_back({facet, {}});
     tiling = tilings_.end() - 1;
     const std::vector<VertexId> polygon = outline(fan);
-    if (polygon.empty() || !cut_ears(polygon, normal, *tiling)) return false;
+    if (polygon.empty() || !cut_ears(polygon, normal, state_.mesh.region(fan.front().tet), *tiling))
+      return false;
     for (const auto& triangle : tiling->triangles) faces_.push_back({triangle, facet});
   }
   for (const auto& [a, b, c] : tiling->triangles) {
@@ -139,12 +140,13 @@ bool Relocation::tile(FacetId facet, Wedge& wedge) {
 
 // Opposite the edge with v. No ear contains another vertex, because v sees all of the polygon.
 // fits() decides where doubles see no ear.
-bool Relocation::cut_ears(std::vector<VertexId> polygon, const Vec3& normal, Tiling& tiling) {
+bool Relocation::cut_ears(std::vector<VertexId> polygon, const Vec3& normal, RegionId region,
+                          Tiling& tiling) {
   while (polygon.size() >= 3) {
     const std::size_t ear = best_ear(polygon, normal);
     if (ear == 0) return false;
     const VertexId before = polygon[ear - 1], after = polygon[ear + 1];
-    if (state_.too_long(state_.position(before), state_.position(after))) return false;
+    if (state_.too_long(state_.position(before), state_.position(after), region)) return false;
     tiling.triangles.push_back({before, polygon[ear], after});
     polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
   }
@@ -260,7 +262,8 @@ float Relocation::worst_at(const Wedge& wedge, const Vec3& x) const {
 bool Relocation::fits(const Wedge& wedge, const Place& place) {
   return std::ranges::all_of(wedge.created, [&](const CreatedTet& tet) {
     for (const VertexId w : tet.vertices) {
-      if (w != wedge.point && state_.too_long(place.position, state_.position(w))) return false;
+      if (w != wedge.point && state_.too_long(place.position, state_.position(w), tet.region))
+        return false;
     }
     return state_.is_positive_with(tet.vertices, corner_of(wedge.point, tet), place);
   });

@@ -46,7 +46,7 @@ class Relocation {
   FacetId facet_of(const Face& face) const { return state_.mesh.facet(face.tet, face.face); }
   static std::vector<VertexId> outline(std::span<const Face> fan);
   bool tile(FacetId facet, Wedge& wedge);
-  bool cut_ears(std::vector<VertexId> polygon, const Vec3& normal, Tiling& tiling);
+  bool cut_ears(std::vector<VertexId> polygon, const Vec3& normal, RegionId region, Tiling& tiling);
   void put_on(const std::array<VertexId, 3>& face, const Face& model, Wedge& wedge);
   std::size_t best_ear(const std::vector<VertexId>& polygon, const Vec3& normal) const;
   static Vec3 inwards(const Wedge& wedge);

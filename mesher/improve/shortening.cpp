@@ -11,7 +11,7 @@ void Shortening::note(TetId t) {
   const Tet& v = state_.mesh.tet(t);
   for (const auto& [i, j] : kEdge) {
     const Vec3 &x = state_.position(v[i]), &y = state_.position(v[j]);
-    if (!state_.too_long(x, y)) continue;
+    if (!state_.too_long(x, y, state_.mesh.region(t))) continue;
     queue_.push({squared_norm(subtract(y, x)), std::min(v[i], v[j]), std::max(v[i], v[j])});
   }
 }
@@ -52,7 +52,7 @@ bool Shortening::split(const Edge& edge) {
     }
     return std::ranges::all_of(tet, [&](VertexId v) {
       const Vec3& end = state_.position(v);
-      return !state_.too_long(place.position, end) ||
+      return !state_.too_long(place.position, end, state_.mesh.region(t)) ||
              distance(place.position, end) < kShorter * length;
     });
   });

@@ -211,12 +211,13 @@ bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least, dou
 
 bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {
   const Tet& tet = state_.mesh.tet(t);
+  const RegionId region = state_.mesh.region(t);
   for (int k = 0; k < 4; ++k) {
     const Vec3& end = state_.position(tet[k]);
-    if (k == i || !state_.counts(t) || !state_.too_long(x, end)) continue;
+    if (k == i || !state_.counts(t) || !state_.too_long(x, end, region)) continue;
     const Vec3& before = state_.position(move_.vertex());
     if (squared_norm(subtract(end, x)) > squared_norm(subtract(end, before)) ||
-        !state_.too_long(before, end)) {  // shorter, but nearer to where sizes are smaller
+        !state_.too_long(before, end, region)) {  // shorter, but nearer to where sizes are smaller
       return true;
     }
   }

@@ -111,13 +111,13 @@ class State final : public ExactMesh {
     return best_apex(position_[v[kFace[i][0]]], position_[v[kFace[i][1]]],
                      position_[v[kFace[i][2]]]);
   }
-  // Is an edge between these longer than wanted? Edges that exist may stay, and those that the
-  // input has come back however long they are.
+  // Is an edge between these longer than wanted, in tetrahedra of the region? Edges that exist may
+  // stay, and those that the input has come back however long they are.
   void bound_edges(bool bound) { edges_are_bounded_ = bound; }
-  bool too_long(const Vec3& x, const Vec3& y) const {
+  bool too_long(const Vec3& x, const Vec3& y, RegionId region) const {
     if (!edges_are_bounded_) return false;
-    return (goals_.max_edge > 0 &&
-            squared_norm(subtract(y, x)) > goals_.max_edge * goals_.max_edge) ||
+    const double longest = goals_.max_edge_in(region);
+    return (longest > 0 && squared_norm(subtract(y, x)) > longest * longest) ||
            (goals_.sizes != nullptr && goals_.sizes->is_too_long(x, y));
   }
 

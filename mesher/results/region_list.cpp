@@ -1,85 +1,67 @@
 #include "mesher/results/region_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
-#include "mesher/base/face_key.h"
-#include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/base/sort_unique.h"
 #include "mesher/geometry/vector.h"
 
 namespace delmesher::results {
 namespace {
 
-using Pair = std::pair<std::int32_t, std::int32_t>;  // of regions, the smaller one first
+using Pair = std::array<RegionId, 2>;  // the smaller one first
 // What is between two regions: the labels that some triangle there has, of each such list one.
 using Walls = std::map<Pair, std::set<std::vector<std::int32_t>>>;
 
-constexpr std::int32_t kUnbounded = 0;
-
-double volume_of(const TetMesh& mesh, const std::array<std::uint32_t, 4>& t) {
-  const Vec3& a = mesh.vertices[t[0]];
-  return dot(cross(subtract(mesh.vertices[t[1]], a), subtract(mesh.vertices[t[2]], a)),
-             subtract(mesh.vertices[t[3]], a)) /
-         6;
+double volume_of(const PointStore& points, const Tet& t) {
+  const Vec3 a = points.nearest(t[0]);
+  const auto from_a = [&](VertexId v) { return subtract(points.nearest(v), a); };
+  return dot(cross(from_a(t[1]), from_a(t[2])), from_a(t[3])) / 6;
 }
 
-// From 1 on, as the tetrahedra come. (A mesh of one region has no list of its own.)
-void sort_by_volume(TetMesh& mesh, std::vector<MeshRegion>& regions) {
-  if (mesh.regions.empty()) mesh.regions.assign(mesh.tetrahedra.size(), 1);
-  const std::int32_t count = mesh.regions.empty() ? 0 : *std::ranges::max_element(mesh.regions);
-  std::vector<MeshRegion> unsorted(static_cast<std::size_t>(count));
+// Of volumes that are equal but for roundings, the region at the first triangle comes first.
+void sort_by_volume(const PointStore& points, ConformingMesh& mesh,
+                    std::vector<MeshRegion>& regions) {
+  const std::size_t count = *std::ranges::max_element(mesh.region);
+  std::vector<double> volume(count + 1, 0);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    MeshRegion& region = unsorted[static_cast<std::size_t>(mesh.regions[t] - 1)];
-    ++region.tetrahedra;
-    region.volume += volume_of(mesh, mesh.tetrahedra[t]);
+    volume[mesh.region[t]] += volume_of(points, mesh.tetrahedra[t]);
   }
-  std::vector<std::size_t> order(unsorted.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(
-      order, [&](std::size_t i, std::size_t j) { return unsorted[i].volume > unsorted[j].volume; });
-  std::vector<std::int32_t> number(order.size());
-  for (const std::size_t i : order) {
-    regions.push_back(unsorted[i]);
-    number[i] = static_cast<std::int32_t>(regions.size());
-  }
-  for (std::int32_t& region : mesh.regions) region = number[static_cast<std::size_t>(region - 1)];
-}
-
-// The regions on both sides of each boundary triangle, the same twice for a sheet.
-std::vector<Pair> sides_of_boundary(const TetMesh& mesh) {
-  std::map<std::array<std::uint32_t, 3>, std::size_t> triangle;
-  for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
-    const auto& [a, b, c] = mesh.boundary[n];
-    triangle[undirected_face(a, b, c)] = n;
-  }
-  std::vector<std::vector<std::int32_t>> beside(mesh.boundary.size());
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const auto& v = mesh.tetrahedra[t];
-    for (const auto& f : kFace) {
-      const auto found = triangle.find(undirected_face(v[f[0]], v[f[1]], v[f[2]]));
-      if (found != triangle.end()) beside[found->second].push_back(mesh.regions[t]);
+  std::vector<FacetId> first(count + 1, kNone);
+  const std::vector<Pair> beside = regions_beside(mesh);
+  for (std::size_t n = 0; n < beside.size(); ++n) {
+    for (const RegionId region : beside[n]) {
+      first[region] = std::min(first[region], mesh.boundary[n].facet);
     }
   }
-  std::vector<Pair> sides;
-  for (std::vector<std::int32_t>& regions : beside) {
-    regions.resize(2, kUnbounded);
-    sides.push_back(std::minmax(regions[0], regions[1]));
+  std::vector<RegionId> order(count), number(count + 1, kOutside);
+  std::iota(order.begin(), order.end(), kInside);
+  const double largest = *std::ranges::max_element(volume);
+  std::ranges::stable_sort(order, [&](RegionId i, RegionId j) {
+    const auto u = static_cast<float>(volume[i] / largest),
+               v = static_cast<float>(volume[j] / largest);
+    return u != v ? u > v : first[i] < first[j];
+  });
+  for (const RegionId region : order) {
+    regions.emplace_back().volume = volume[region];
+    number[region] = static_cast<RegionId>(regions.size());
   }
-  return sides;
+  for (RegionId& region : mesh.region) region = number[region];
 }
 
 // Which regions a label's triangles surround: those that only an odd number of them separates from
-// the unbounded one. None if they are not closed.
+// the outside. The triangles are closed.
 class Surrounded {
  public:
   explicit Surrounded(std::size_t regions) : side_(regions + 1) {}
 
-  std::vector<std::int32_t> run(const Walls& walls, std::int32_t label) {
+  std::vector<RegionId> run(const Walls& walls, std::int32_t label) {
     std::ranges::fill(side_, kUnknown);
     neighbors_.assign(side_.size(), {});
     for (const auto& [pair, lists] : walls) {
@@ -87,79 +69,249 @@ class Surrounded {
         join(pair, std::ranges::binary_search(labels, label));
       }
     }
-    return spread() ? odd() : std::vector<std::int32_t>();
+    spread();
+    return odd();
   }
 
  private:
   enum Side : std::uint8_t { kEven, kOdd, kUnknown };
 
   void join(const Pair& pair, bool crosses) {
-    neighbors_[static_cast<std::size_t>(pair.first)].emplace_back(pair.second, crosses);
-    neighbors_[static_cast<std::size_t>(pair.second)].emplace_back(pair.first, crosses);
+    neighbors_[pair[0]].emplace_back(pair[1], crosses);
+    neighbors_[pair[1]].emplace_back(pair[0], crosses);
   }
-  bool spread() {
-    std::vector<std::size_t> queue = {kUnbounded};
-    side_[kUnbounded] = kEven;
+  void spread() {
+    std::vector<RegionId> queue = {kOutside};
+    side_[kOutside] = kEven;
     for (std::size_t n = 0; n < queue.size(); ++n) {
       for (const auto& [region, crosses] : neighbors_[queue[n]]) {
-        const auto u = static_cast<std::size_t>(region);
-        const Side side = (side_[queue[n]] == kOdd) != crosses ? kOdd : kEven;
-        if (side_[u] == kUnknown) {
-          side_[u] = side;
-          queue.push_back(u);
-        }
-        if (side_[u] != side) return false;
+        if (side_[region] != kUnknown) continue;
+        side_[region] = (side_[queue[n]] == kOdd) != crosses ? kOdd : kEven;
+        queue.push_back(region);
       }
     }
-    return true;
   }
-  std::vector<std::int32_t> odd() const {
-    std::vector<std::int32_t> result;
+  std::vector<RegionId> odd() const {
+    std::vector<RegionId> result;
     for (std::size_t region = 1; region < side_.size(); ++region) {
-      if (side_[region] == kOdd) result.push_back(static_cast<std::int32_t>(region));
+      if (side_[region] == kOdd) result.push_back(static_cast<RegionId>(region));
     }
     return result;
   }
 
   std::vector<Side> side_;
-  std::vector<std::vector<std::pair<std::int32_t, bool>>> neighbors_;
+  std::vector<std::vector<std::pair<RegionId, bool>>> neighbors_;
 };
 
-// A region is of the smallest closed solid that it lies in.
-void find_labels(const surface::MergedSurface& merged, const TetMesh& mesh,
-                 std::vector<MeshRegion>& regions) {
-  // So many labels are not solids.
-  constexpr std::size_t kMostWork = 100'000'000;
-  const std::vector<Pair> sides = sides_of_boundary(mesh);
-  Walls walls;
-  std::set<std::int32_t> all;
-  for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
-    std::vector<std::int32_t> labels = merged.labels_of(mesh.boundary_facets[n]);
-    all.insert(labels.begin(), labels.end());
-    walls[sides[n]].insert(std::move(labels));
-  }
-  if (all.size() * (walls.size() + regions.size()) > kMostWork) return;
-  std::vector<double> smallest(regions.size(), HUGE_VAL);
-  Surrounded surrounded(regions.size());
-  for (const std::int32_t label : all) {
-    const std::vector<std::int32_t> inside = surrounded.run(walls, label);
-    double volume = 0;
-    for (const std::int32_t r : inside) volume += regions[static_cast<std::size_t>(r - 1)].volume;
-    for (const std::int32_t r : inside) {
-      const auto n = static_cast<std::size_t>(r - 1);
-      if (volume >= smallest[n]) continue;
-      smallest[n] = volume;
-      regions[n].label = label;
+// Labels whose triangles are not closed, with an edge that an odd number of these has; if there is
+// one, with an edge of one triangle alone.
+std::map<std::int32_t, std::array<std::uint32_t, 2>> open_labels(
+    const surface::MergedSurface& merged) {
+  using Edge = std::array<std::uint32_t, 2>;
+  struct Side {
+    std::int32_t label;
+    Edge edge;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  std::vector<Edge> edges;
+  const auto& triangles = merged.surface.triangles;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const std::vector<std::int32_t> labels = merged.labels_of(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+      edges.push_back({a, b});
+      for (const std::int32_t label : labels) sides.push_back({label, edges.back()});
     }
   }
+  std::ranges::sort(sides);
+  std::ranges::sort(edges);
+  const auto is_free = [&](const Edge& edge) {
+    const auto [begin, end] = std::equal_range(edges.begin(), edges.end(), edge);
+    return end - begin == 1;
+  };
+  std::map<std::int32_t, Edge> open;
+  for (std::size_t n = 0; n < sides.size();) {
+    std::size_t end = n;
+    while (end < sides.size() && sides[end] == sides[n]) ++end;
+    if ((end - n) % 2 != 0) {
+      const auto [entry, is_new] = open.try_emplace(sides[n].label, sides[n].edge);
+      if (!is_new && is_free(sides[n].edge) && !is_free(entry->second)) {
+        entry->second = sides[n].edge;
+      }
+    }
+    n = end;
+  }
+  return open;
+}
+
+class Lister {
+ public:
+  Lister(const surface::MergedSurface& merged, const PointStore& points, ConformingMesh& mesh)
+      : merged_(merged), points_(points), mesh_(mesh), open_(open_labels(merged)) {}
+
+  RegionList run() {
+    sort_by_volume(points_, mesh_, list_.report.regions);
+    beside_ = regions_beside(mesh_);
+    list_.bare = static_cast<std::size_t>(std::ranges::count(beside_, Pair{kOutside, kOutside}));
+    find_labels();
+    measure_walls();
+    find_open();
+    return std::move(list_);
+  }
+
+ private:
+  // A region is of the smallest closed solid that it lies in.
+  void find_labels() {
+    // So many labels are not solids.
+    constexpr std::size_t kMostWork = 100'000'000;
+    std::vector<MeshRegion>& regions = list_.report.regions;
+    Walls walls;
+    std::set<std::int32_t> closed;
+    for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
+      std::vector<std::int32_t> labels = merged_.labels_of(mesh_.boundary[n].facet);
+      for (const std::int32_t label : labels) {
+        if (!open_.contains(label)) closed.insert(label);
+      }
+      walls[beside_[n]].insert(std::move(labels));
+    }
+    if (closed.size() * (walls.size() + regions.size()) > kMostWork) return;
+    std::vector<double> smallest(regions.size(), HUGE_VAL);
+    Surrounded surrounded(regions.size());
+    for (const std::int32_t label : closed) {
+      const std::vector<RegionId> inside = surrounded.run(walls, label);
+      double volume = 0;
+      for (const RegionId r : inside) volume += regions[r - 1].volume;
+      for (const RegionId r : inside) {
+        if (volume >= smallest[r - 1]) continue;
+        smallest[r - 1] = volume;
+        regions[r - 1].label = label;
+      }
+    }
+  }
+
+  void measure_walls() {
+    std::map<Pair, std::pair<std::set<FacetId>, double>> walls;
+    for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
+      auto& [triangles, area] = walls[beside_[n]];
+      triangles.insert(mesh_.boundary[n].facet);
+      const auto& [a, b, c] = mesh_.boundary[n].vertices;
+      const Vec3 from = points_.nearest(a);
+      area +=
+          norm(cross(subtract(points_.nearest(b), from), subtract(points_.nearest(c), from))) / 2;
+    }
+    for (const auto& [pair, wall] : walls) {
+      const auto number = [&](int k) { return static_cast<std::int32_t>(pair[k]); };
+      list_.report.walls.push_back({{number(0), number(1)}, wall.first.size(), wall.second});
+    }
+  }
+
+  void find_open() {
+    std::map<std::int32_t, std::int32_t> region;  // of those with one on both sides
+    for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
+      if (beside_[n][0] != beside_[n][1]) continue;
+      for (const std::int32_t label : merged_.labels_of(mesh_.boundary[n].facet)) {
+        if (open_.contains(label)) region.try_emplace(label, beside_[n][0]);
+      }
+    }
+    for (const auto& [label, number] : region) {
+      const auto& [a, b] = open_.at(label);
+      list_.report.open.push_back(
+          {label, number, {merged_.surface.vertices[a], merged_.surface.vertices[b]}});
+    }
+  }
+
+  const surface::MergedSurface& merged_;
+  const PointStore& points_;
+  ConformingMesh& mesh_;
+  const std::map<std::int32_t, std::array<std::uint32_t, 2>> open_;  // an edge of each label
+  std::vector<Pair> beside_;                                         // per face of the boundary
+  RegionList list_;
+};
+
+std::string name_of(const Options& options, const MeshRegion& region) {
+  const auto name =
+      region.label ? options.label_names.find(*region.label) : options.label_names.end();
+  return name == options.label_names.end() ? "" : name->second;
+}
+
+Status unknown_region(const std::string& name, const Options& options,
+                      const std::vector<MeshRegion>& regions) {
+  std::vector<std::string> names;
+  for (const MeshRegion& region : regions) {
+    if (std::string known = name_of(options, region); !known.empty()) {
+      names.push_back(std::move(known));
+    }
+  }
+  sort_unique(names);
+  std::string list;
+  for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+  return {StatusCode::invalid_options,
+          "no region is called \"" + name + "\": " +
+              (list.empty() ? "none lies in a closed solid that has a name" : "there are " + list)};
+}
+
+// Calls visit(number) for each region of the name. Are there any?
+template <class Visit>
+bool for_each_called(const std::string& name, const Options& options,
+                     const std::vector<MeshRegion>& regions, const Visit& visit) {
+  bool any = false;
+  for (std::size_t n = 0; n < regions.size(); ++n) {
+    if (name.empty() || name_of(options, regions[n]) != name) continue;
+    visit(static_cast<RegionId>(n + 1));
+    any = true;
+  }
+  return any;
 }
 
 }  // namespace
 
-void list_regions(const surface::MergedSurface& merged, Result& result) {
-  sort_by_volume(result.mesh, result.regions);
-  find_labels(merged, result.mesh, result.regions);
-  for (std::uint32_t& facet : result.mesh.boundary_facets) facet = merged.given[facet];
+RegionList list_regions(const surface::MergedSurface& merged, const PointStore& points,
+                        ConformingMesh& mesh) {
+  return Lister(merged, points, mesh).run();
+}
+
+Status choose_regions(const Options& options, const std::vector<MeshRegion>& regions,
+                      ConformingMesh& mesh) {
+  if (options.regions == Regions::all) return {};
+  std::set<RegionId> chosen;
+  if (options.regions == Regions::largest) chosen.insert(kInside);
+  for (const std::string& name : options.region_names) {
+    const auto take = [&](RegionId region) { chosen.insert(region); };
+    if (!for_each_called(name, options, regions, take)) {
+      return unknown_region(name, options, regions);
+    }
+  }
+  for (RegionId& region : mesh.region) {
+    if (!chosen.contains(region)) region = kOutside;
+  }
+  return {};
+}
+
+Status find_region_sizes(const Options& options, const std::vector<MeshRegion>& regions,
+                         std::vector<double>& sizes) {
+  sizes.clear();
+  for (const auto& [name, max_edge] : options.region_sizes) {
+    sizes.resize(regions.size() + 1, 0);
+    const double size = max_edge;
+    const auto bound = [&](RegionId region) {
+      sizes[region] = sizes[region] > 0 ? std::min(sizes[region], size) : size;
+    };
+    if (!for_each_called(name, options, regions, bound)) {
+      return unknown_region(name, options, regions);
+    }
+  }
+  return {};
+}
+
+void finish_regions(const surface::MergedSurface& merged, Result& result) {
+  TetMesh& mesh = result.mesh;
+  // A mesh of region 1 alone has no list of its own.
+  if (mesh.regions.empty()) mesh.regions.assign(mesh.tetrahedra.size(), 1);
+  for (const std::int32_t region : mesh.regions) {
+    ++result.regions[static_cast<std::size_t>(region - 1)].tetrahedra;
+  }
+  for (std::uint32_t& facet : mesh.boundary_facets) facet = merged.given[facet];
 }
 
 }  // namespace delmesher::results

@@ -1,14 +1,35 @@
-// The regions of a written mesh.
+// The regions of a complex: what they are called, what is between them, and which are written.
 #pragma once
 
+#include <vector>
+
 #include "mesher/delmesher.h"
+#include "mesher/predicates/points.h"
 #include "mesher/surface/complex.h"
+#include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::results {
 
-// Numbers the regions of result.mesh by their volume, the largest first, from 1 on, and lists them
-// in result.regions. `merged`: the surface that was meshed; its facets become those of the
-// triangles given.
-void list_regions(const surface::MergedSurface& merged, Result& result);
+struct RegionList {
+  ComplexReport report;
+  std::size_t bare = 0;  // triangles with the outside on both sides
+};
+
+// Numbers the regions of the mesh by their volume, the largest first, from 1 on, and lists them.
+// `merged`: the surface of the mesh, with a facet for each triangle.
+RegionList list_regions(const surface::MergedSurface& merged, const PointStore& points,
+                        ConformingMesh& mesh);
+
+// Makes regions that are not to be written outside. An error if a name is that of no region.
+Status choose_regions(const Options& options, const std::vector<MeshRegion>& regions,
+                      ConformingMesh& mesh);
+
+// The longest edge in each region, by its number; empty if none is bounded on its own. 0: any.
+Status find_region_sizes(const Options& options, const std::vector<MeshRegion>& regions,
+                         std::vector<double>& sizes);
+
+// Counts the tetrahedra of each region of result.mesh; the facets of its boundary become those of
+// the triangles given.
+void finish_regions(const surface::MergedSurface& merged, Result& result);
 
 }  // namespace delmesher::results

@@ -90,6 +90,7 @@ const std::vector<Point>& written(const RemeshResult& result) {
 void scale(Result& result, int exponent) {
   for (Point& p : result.mesh.vertices) scale(p, exponent);
   for (Point& p : result.chamfered.vertices) scale(p, exponent);
+  for (MeshRegion& region : result.regions) region.volume = std::ldexp(region.volume, 3 * exponent);
   scale(result.exact, exponent);
   Statistics& s = result.statistics;
   for (double* length : {&s.bbox_diagonal, &s.tolerance, &s.max_surface_deviation,

@@ -64,23 +64,29 @@ std::string_view useless_if_kept(const Options& given) {
 }
 
 std::string combination_defect(const Options& given) {
-  if (given.tolerance != 0 && (given.want_exact || given.regions == Regions::all)) {
+  const bool complex = given.regions != Regions::solid;
+  if (given.tolerance != 0 && (given.want_exact || complex)) {
     return given.want_exact ? "a tolerance has no exact record yet"
-                            : "regions all with a tolerance is not possible yet";
+                            : "regions with a tolerance is not possible yet";
   }
-  if (given.regions == Regions::all && given.surface == SurfaceChoice::split) {
-    return "--regions all needs --surface keep";
+  if (complex && given.surface == SurfaceChoice::split) return "--regions needs --surface keep";
+  if (complex && given.want_exact) return "--regions has no exact record yet";
+  if ((given.regions == Regions::named) == given.region_names.empty()) {
+    return "names of regions are for --regions with names";
   }
-  if (given.regions == Regions::all && given.want_exact) {
-    return "--regions all has no exact record yet";
+  if (!complex && !given.region_sizes.empty()) return "--max-edge of a region needs --regions";
+  for (const RegionSize& size : given.region_sizes) {
+    if (!(size.max_edge > 0) || !std::isfinite(size.max_edge)) {
+      return "max_edge of region " + size.region + " must be above 0";
+    }
   }
-  if (given.surface != SurfaceChoice::keep && given.regions == Regions::solid) {
+  if (given.surface != SurfaceChoice::keep && !complex) {
     return given.strict ? "--strict needs --surface keep" : "";
   }
   const std::string_view useless = useless_if_kept(given);
   if (useless.empty()) return {};
   return "--" + options::argument_name(useless) + " does nothing with " +
-         (given.regions == Regions::all ? "--regions all" : "--surface keep");
+         (complex ? "--regions" : "--surface keep");
 }
 
 std::string combination_defect(const RemeshOptions& given) {
@@ -108,7 +114,7 @@ bool is_fine_enough(const Surface& surface, const Options& options) {
 }  // namespace
 
 SurfaceChoice surface_choice(const Options& given, const Surface& surface) {
-  if (given.regions == Regions::all) return SurfaceChoice::keep;
+  if (given.regions != Regions::solid) return SurfaceChoice::keep;
   const bool may_keep =
       useless_if_kept(given).empty() && !given.want_chamfered && is_fine_enough(surface, given);
   return given.surface == SurfaceChoice::automatic && !may_keep ? SurfaceChoice::split

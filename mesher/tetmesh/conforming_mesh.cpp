@@ -30,25 +30,38 @@ bool touches_itself(const ConformingMesh& mesh) {
   return !MeshTopology(std::move(inside.tetrahedra), inside.region, {}, vertices).pinched().empty();
 }
 
-std::size_t drop_bare_faces(ConformingMesh& mesh) {
-  const auto key = [](VertexId a, VertexId b, VertexId c) { return undirected_face(a, b, c); };
-  std::vector<std::array<VertexId, 3>> bare;
-  for (const auto& [v, facet] : mesh.boundary) bare.push_back(key(v[0], v[1], v[2]));
-  std::ranges::sort(bare);
-  std::vector<std::uint8_t> taken(bare.size(), 0);
-  for (const Tet& t : mesh.tetrahedra) {
+std::vector<std::array<RegionId, 2>> regions_beside(const ConformingMesh& mesh) {
+  struct Face {
+    std::array<VertexId, 3> key;
+    std::size_t place;
+  };
+  std::vector<Face> faces;
+  for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
+    const auto& [a, b, c] = mesh.boundary[n].vertices;
+    faces.push_back({undirected_face(a, b, c), n});
+  }
+  std::ranges::sort(faces, {}, &Face::key);
+  std::vector<std::array<RegionId, 2>> beside(faces.size(), {kOutside, kOutside});
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const Tet& v = mesh.tetrahedra[t];
     for (const auto& f : kFace) {
-      const auto face = std::ranges::lower_bound(bare, key(t[f[0]], t[f[1]], t[f[2]]));
-      if (face != bare.end() && *face == key(t[f[0]], t[f[1]], t[f[2]])) {
-        taken[static_cast<std::size_t>(face - bare.begin())] = 1;
-      }
+      const auto key = undirected_face(v[f[0]], v[f[1]], v[f[2]]);
+      const auto face = std::ranges::lower_bound(faces, key, {}, &Face::key);
+      if (face == faces.end() || face->key != key) continue;
+      // A tetrahedron outside changes nothing; of two inside each takes a place.
+      auto& [low, high] = beside[face->place];
+      low = std::exchange(high, std::max(high, mesh.region[t]));
+      low = std::min(low, mesh.region[t]);
     }
   }
-  return std::erase_if(mesh.boundary, [&](const SurfaceFace& face) {
-    const auto& v = face.vertices;
-    return taken[static_cast<std::size_t>(std::ranges::lower_bound(bare, key(v[0], v[1], v[2])) -
-                                          bare.begin())] == 0;
-  });
+  return beside;
+}
+
+std::size_t drop_bare_faces(ConformingMesh& mesh) {
+  const std::vector<std::array<RegionId, 2>> beside = regions_beside(mesh);
+  std::size_t n = 0;
+  return std::erase_if(mesh.boundary,
+                       [&](const SurfaceFace&) { return beside[n++][1] == kOutside; });
 }
 
 ConformingMesh part_within(Region region, const ConformingMesh& mesh) {

@@ -46,7 +46,11 @@ void keep_inside(ConformingMesh& mesh);
 // is so where solids touch in an edge or a vertex.
 bool touches_itself(const ConformingMesh& mesh);
 
-// Drops the faces of the boundary that no tetrahedron has. How many?
+// Per face of the boundary the regions on its two sides, the smaller one first; kOutside where
+// there is no tetrahedron.
+std::vector<std::array<RegionId, 2>> regions_beside(const ConformingMesh& mesh);
+
+// Drops the faces of the boundary with the outside on both sides. How many?
 std::size_t drop_bare_faces(ConformingMesh& mesh);
 
 // The tetrahedra that are written of a mesh, and all of its boundary. The repeated faces are those

@@ -31,6 +31,18 @@ TEST(ConformingMesh, TheOutsideDoesNotJoin) {
   EXPECT_TRUE(touches_itself(mesh));
 }
 
+TEST(ConformingMesh, TellsTheRegionsBesideAFace) {
+  ConformingMesh mesh = pair({1, 2, 3, 4});
+  mesh.boundary = {{{3, 2, 1}, 0}, {{0, 1, 2}, 1}, {{7, 8, 9}, 2}};
+  using Sides = std::vector<std::array<RegionId, 2>>;
+  mesh.region = {3, 2};
+  EXPECT_EQ(regions_beside(mesh), (Sides{{2, 3}, {0, 3}, {0, 0}}));
+  mesh.region = {kOutside, 2};
+  EXPECT_EQ(regions_beside(mesh), (Sides{{0, 2}, {0, 0}, {0, 0}}));
+  mesh.region = {2, 2};
+  EXPECT_EQ(regions_beside(mesh), (Sides{{2, 2}, {0, 2}, {0, 0}}));
+}
+
 TEST(ConformingMesh, FacesWithoutTetrahedraGo) {
   ConformingMesh mesh = pair({1, 2, 3, 4});
   mesh.boundary = {{{3, 2, 1}, 0}, {{0, 1, 4}, 1}, {{2, 3, 4}, 2}, {{7, 8, 9}, 3}};

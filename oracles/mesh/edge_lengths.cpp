@@ -14,7 +14,8 @@ namespace tetproof::oracles {
 namespace {
 
 OracleReport check(const TetComplex& complex, AngleScope scope, const char* name,
-                   const char* option, const std::function<double(Index, Index)>& over) {
+                   const char* option,
+                   const std::function<double(std::size_t, Index, Index)>& over) {
   OracleReport report(name, "tetrahedra");
   double largest = 0;
   std::set<std::pair<Index, Index>> too_long;
@@ -24,7 +25,7 @@ OracleReport check(const TetComplex& complex, AngleScope scope, const char* name
     const Tet& tet = complex.tetrahedra[t];
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < i; ++j) {
-        const double here = over(tet[i], tet[j]);
+        const double here = over(t, tet[i], tet[j]);
         largest = std::max(largest, here);
         if (here <= EdgeSizes::kMost || !too_long.insert(std::minmax(tet[i], tet[j])).second) {
           continue;
@@ -43,19 +44,22 @@ OracleReport check(const TetComplex& complex, AngleScope scope, const char* name
 }  // namespace
 
 std::vector<OracleReport> check_edge_lengths(const TetComplex& complex, const Promise& promise,
-                                             AngleScope scope) {
+                                             std::span<const double> longest, AngleScope scope) {
   const ExactPoints& points = *complex.points;
   std::vector<OracleReport> reports;
-  if (promise.max_edge > 0) {
-    reports.push_back(check(complex, scope, "edges", "--max-edge", [&](Index v, Index w) {
-      return exact::distance(points, v, w) / promise.max_edge;
-    }));
+  if (promise.max_edge > 0 || !longest.empty()) {
+    const auto over = [&](std::size_t t, Index v, Index w) {
+      const double most = longest.empty() ? promise.max_edge : longest[t];
+      return most > 0 ? exact::distance(points, v, w) / most : 0;
+    };
+    reports.push_back(check(complex, scope, "edges", "--max-edge", over));
   }
   if (!promise.size_field.empty()) {
     const EdgeSizes sizes(promise.size_field, promise.size_growth);
-    reports.push_back(check(complex, scope, "sizes", "--size-field", [&](Index v, Index w) {
+    const auto over = [&](std::size_t, Index v, Index w) {
       return sizes.excess(points.nearest(v), points.nearest(w));
-    }));
+    };
+    reports.push_back(check(complex, scope, "sizes", "--size-field", over));
   }
   return reports;
 }

@@ -5,13 +5,17 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "oracles/base/distances.h"
 #include "oracles/base/edge_key.h"
 #include "oracles/base/union_find.h"
+#include "oracles/mesh/solids.h"
 #include "oracles/surface/input_surface.h"
+#include "oracles/verdict/edge_sizes.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -31,28 +35,31 @@ struct Triangle {
 class Parts {
  public:
   Parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
-        const Neighbours& neighbours)
+        const Neighbours& neighbours, const Promise& promise)
       : input_(input),
         mesh_(mesh),
         complex_(complex),
         neighbours_(neighbours),
         points_(*complex.points),
+        promise_(promise),
         part_(complex.tetrahedra.size()) {}
 
-  PartsResult run(double near, std::uint64_t& split) {
+  PartsResult run(double near) {
     collect_triangles();
+    find_solids();
     result_.parts.checked = triangles_.size();
     connect();
     check_outer_faces();
     check_bare();
     check_missing();
     check_regions();
+    check_wanted();
+    bound_edges();
     check_names();
     check_list();
-    split = 0;
     if (near > 0 && !missing_.empty() && missing_.size() <= kMostSplit &&
         std::ranges::all_of(missing_, [&](Index t) { return is_split(triangles_[t], near); })) {
-      split = missing_.size();
+      result_.split = missing_.size();
       for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
         report->undecided = report->violations > 0;
       }
@@ -164,13 +171,6 @@ class Parts {
     planted_ = std::move(faces);
   }
 
-  // Does a face look up, or, if it is upright, to where rays are moved?
-  bool looks_up(const Face& face) const {
-    const ExactVector n = exact::area2(points_, face[0], face[1], face[2]);
-    const int up = sgn(n[2]), x = sgn(n[0]);
-    return up != 0 ? up > 0 : x != 0 ? x > 0 : sgn(n[1]) > 0;
-  }
-
   // The ray begins just beyond the face, on the side to which it was moved or goes up.
   void check_outer_faces() {
     plant(outer_);
@@ -179,7 +179,7 @@ class Parts {
       const RayCrossings above = crossings_above(points_, planted_, *tree_, face, n);
       if (above.on_triangle) {
         result_.parts.fail(complex_.face_name(face) + " lies on another outer face");
-      } else if (above.winding != (looks_up(face) ? 0 : 1)) {
+      } else if (above.winding != (looks_up(points_, face) ? 0 : 1)) {
         result_.parts.fail("beside " + complex_.face_name(face) +
                            " the outer faces wind around a point not 0 or 1 times");
       }
@@ -260,23 +260,146 @@ class Parts {
   }
 
   void sum_up(UnionFind& shells) {
-    exact::Volume6 volume6;
     std::map<Index, ExactSum> volumes;
-    std::map<Index, Index> first;
+    std::map<Index, Index> first;  // side
     for (Index n = 0; n < triangles_.size(); ++n) {
       for (const bool behind : {false, true}) {
         if (!is_empty(n, behind)) continue;
         const Index shell = shells.find(side(n, behind));
-        const ExactNumber& volume = volume6.from_origin(points_, triangles_[n].corners);
-        // Seen from what is on its side, a triangle is turned the other way in front.
-        behind ? volumes[shell] += volume : volumes[shell] -= volume;
-        first.try_emplace(shell, n);
+        add_side(side(n, behind), volumes[shell]);
+        first.try_emplace(shell, side(n, behind));
       }
     }
     for (const auto& [shell, volume] : volumes) {
       if (volume.sign() <= 0) continue;
-      result_.parts.fail("a part that is bounded by " + name(triangles_[first[shell]]) +
-                         " has no tetrahedra");
+      const Index n = first[shell] / 2;
+      const bool behind = first[shell] % 2 != 0;
+      if (!is_wanted(n, behind, shell, volumes, shells)) continue;
+      result_.parts.fail("a part that is bounded by " + name(triangles_[n]) + " has no tetrahedra");
+    }
+  }
+
+  // --- which parts are asked for
+  bool asks_for_some() const { return promise_.largest_region || !promise_.region_names.empty(); }
+
+  // What is only asked of names; none where every part is asked for.
+  void find_solids() {
+    if (promise_.region_names.empty() && promise_.region_sizes.empty()) return;
+    std::vector<std::vector<std::int32_t>> labels;
+    for (const Triangle& t : triangles_) {
+      corners_.push_back(t.corners);
+      labels.push_back(t.labels);
+    }
+    solids_ = std::make_unique<Solids>(points_, corners_, labels);
+  }
+  std::string called(const std::optional<std::int32_t>& label) const {
+    const auto known = label ? input_.names.find({2, *label}) : input_.names.end();
+    return known == input_.names.end() ? "" : known->second;
+  }
+  bool is_asked_for(const std::string& name) const {
+    return !name.empty() &&
+           std::ranges::find(promise_.region_names, name) != promise_.region_names.end();
+  }
+
+  // Is the part with this shell around it, which the mesh does not have, to be there?
+  bool is_wanted(Index n, bool behind, Index shell, const std::map<Index, ExactSum>& volumes,
+                 UnionFind& shells) const {
+    if (!asks_for_some()) return true;
+    if (!promise_.region_names.empty()) return is_asked_for(called(solids_->beside(n, behind)));
+    ExactSum volume;
+    exact::Volume6 volume6;
+    for (const Tet& tet : complex_.tetrahedra) volume += volume6(points_, tet);
+    if (!(difference(volumes.at(shell), volume, 0) > 0)) return false;
+    return difference(without_cavities(shell, volumes, shells), volume, 0) > 0;
+  }
+
+  // The volume of the part within a shell: shells that it surrounds, and no smaller one does, are
+  // those of cavities.
+  ExactSum without_cavities(Index outer, const std::map<Index, ExactSum>& volumes,
+                            UnionFind& shells) const {
+    std::map<Index, std::vector<Index>> sides;
+    for (Index n = 0; n < triangles_.size(); ++n) {
+      for (const bool behind : {false, true}) {
+        if (is_empty(n, behind)) sides[shells.find(side(n, behind))].push_back(side(n, behind));
+      }
+    }
+    const auto surrounds = [&](Index shell, Index what) {
+      std::vector<Face> faces;
+      Index own = kNone;
+      for (const Index s : sides.at(shell)) {
+        if (s / 2 == what / 2) own = static_cast<Index>(faces.size());
+        faces.push_back(triangles_[s / 2].corners);
+      }
+      return RayTarget(points_, std::move(faces))
+          .surrounds(triangles_[what / 2].corners, what % 2 != 0, own);
+    };
+    ExactSum sum = volumes.at(outer);
+    for (const auto& [shell, volume] : volumes) {
+      if (volume.sign() >= 0) continue;
+      Index innermost = kNone;
+      for (const auto& [other, size] : volumes) {
+        const bool smaller = innermost == kNone || difference(size, volumes.at(innermost), 0) < 0;
+        if (size.sign() > 0 && smaller && surrounds(other, sides.at(shell).front())) {
+          innermost = other;
+        }
+      }
+      if (innermost != outer) continue;
+      for (const Index s : sides.at(shell)) add_side(s, sum);
+    }
+    return sum;
+  }
+
+  // Seen from what is on its side, a triangle is turned the other way in front.
+  void add_side(Index s, ExactSum& sum) const {
+    exact::Volume6 volume6;
+    const ExactNumber& volume = volume6.from_origin(points_, triangles_[s / 2].corners);
+    s % 2 != 0 ? sum += volume : sum -= volume;
+  }
+
+  // A tetrahedron of each part.
+  std::map<Index, Index> parts() {
+    std::map<Index, Index> first;
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) first.try_emplace(part_.find(t), t);
+    return first;
+  }
+
+  void check_wanted() {
+    if (!asks_for_some()) return;
+    const std::map<Index, Index> first = parts();
+    if (promise_.largest_region && first.size() > 1) {
+      result_.parts.fail("there are " + std::to_string(first.size()) +
+                         " parts, promised was the largest");
+    }
+    if (promise_.region_names.empty()) return;
+    for (const auto& [part, t] : first) {
+      const std::string name = called(solids_->around(complex_.tetrahedra[t]));
+      if (is_asked_for(name)) continue;
+      result_.parts.fail(complex_.tet_name(t) + " is of a part that is called \"" + name +
+                         "\", which is not promised");
+    }
+  }
+
+  void bound_edges() {
+    if (promise_.region_sizes.empty()) return;
+    std::map<Index, double> longest;  // of parts
+    for (const auto& [part, t] : parts()) {
+      const std::string name = called(solids_->around(complex_.tetrahedra[t]));
+      double& most = longest[part] = promise_.max_edge;
+      for (const auto& [region, size] : promise_.region_sizes) {
+        if (region == name && (most == 0 || size < most)) most = size;
+      }
+    }
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      result_.longest.push_back(longest[part_.find(t)]);
+    }
+    for (const Triangle& t : triangles_) {
+      for (const Index tet : t.beside) {
+        const double most = tet != kNobody ? result_.longest[tet] * EdgeSizes::kMost : 0;
+        for (std::size_t k = 0; most > 0 && k < 3; ++k) {
+          const double length = exact::distance(points_, t.corners[k], t.corners[(k + 1) % 3]);
+          if (length > most) result_.triangles_fit = false;
+        }
+      }
     }
   }
 
@@ -371,7 +494,10 @@ class Parts {
   const TetComplex& complex_;
   const Neighbours& neighbours_;
   const ExactPoints& points_;
+  const Promise& promise_;
   std::vector<Triangle> triangles_;
+  std::vector<Face> corners_;  // of the triangles
+  std::unique_ptr<Solids> solids_;
   std::map<Face, Index> by_corners_;
   UnionFind part_;
   std::vector<Face> outer_, planted_;  // planted: in the tree
@@ -382,11 +508,9 @@ class Parts {
 
 }  // namespace
 
-std::uint64_t check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
-                          const Neighbours& neighbours, double near, PartsResult& result) {
-  std::uint64_t split = 0;
-  result = Parts(input, mesh, complex, neighbours).run(near, split);
-  return split;
+PartsResult check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
+                        const Neighbours& neighbours, const Promise& promise, double near) {
+  return Parts(input, mesh, complex, neighbours, promise).run(near);
 }
 
 }  // namespace tetproof::oracles

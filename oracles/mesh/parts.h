@@ -12,9 +12,11 @@
 // the input is a face, or has winding number 0, then no triangle enters a part, whose boundary
 // consists of triangles: it is a part of space that the input bounds, and all of it.
 //
-// No other one is missing: sides of triangles without a tetrahedron, connected around edges where
-// nothing but an empty wedge is between two of them, are closed surfaces; one that is the outer
-// surface of what is on its side has a positive volume, as seen from there.
+// No other one is missing (or, of the largest part or of parts by name, none that was asked for):
+// sides of triangles without a tetrahedron, connected around edges where nothing but an empty wedge
+// is between two of them, are closed surfaces; one that is the outer surface of what is on its side
+// has a positive volume, as seen from there. What is missing is called like the smallest solid of a
+// label around it (solids.h), and so is what is there.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +25,7 @@
 #include "oracles/files/mesh_file.h"
 #include "oracles/files/polyhedron.h"
 #include "oracles/mesh/tet_complex.h"
+#include "oracles/verdict/promise.h"
 #include "oracles/verdict/report.h"
 
 namespace tetproof::oracles {
@@ -35,14 +38,18 @@ struct PartsResult {
   // The triangles that the file lists are those of the input that are faces, each once, with one of
   // the labels given.
   OracleReport list{"boundary-list", "triangles"};
+  std::uint64_t split = 0;  // triangles that may be, see below
+  // Per tetrahedron the longest edge promised, 0: any; and whether no triangle has a longer one.
+  std::vector<double> longest;
+  bool triangles_fit = true;
 };
 
 // `points` of the complex: the vertices of the input, then those of the file from
 // complex.first_vertex on. Triangles that are repeated in the input count once. Those that are not
 // faces of the mesh are violations, but for those that bound no part. `near`: if all of them have
 // a vertex of the mesh within this distance (input units) that is no corner, they may be split, and
-// whether faces tile them is not decided; 0: that is not asked. Returns how many there are.
-std::uint64_t check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
-                          const Neighbours& neighbours, double near, PartsResult& result);
+// whether faces tile them is not decided; 0: that is not asked.
+PartsResult check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
+                        const Neighbours& neighbours, const Promise& promise, double near);
 
 }  // namespace tetproof::oracles

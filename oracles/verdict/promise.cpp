@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 #include <set>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -60,14 +61,16 @@ unsigned bit_of(Task task) {
 enum class Takes : std::uint8_t {
   nothing,
   number,
-  length,           // a number in input units
-  length_or_share,  // the same, or a fraction of the diagonal with a d behind it
-  word,             // one of two
-  file,             // where something is written, or what something is called
-  outputs,          // the same, several times
-  sizes,            // a file that promises something: a size field
-  list,             // of choices of the paper
-  choice            // one of these: no option of its own
+  length,             // a number in input units
+  length_or_share,    // the same, or a fraction of the diagonal with a d behind it
+  word,               // one of two
+  regions,            // a word, or names of regions with commas
+  length_or_regions,  // a length, and lengths of regions as in copper=0.5, with commas
+  file,               // where something is written, or what something is called
+  outputs,            // the same, several times
+  sizes,              // a file that promises something: a size field
+  list,               // of choices of the paper
+  choice              // one of these: no option of its own
 };
 
 // What an option of delmesher promises. The oracles read it on their own, from README and
@@ -102,7 +105,8 @@ constexpr Option kOptions[] = {
     {"--corner", kMesh, Takes::number, &Promise::corner, 0, 90},
     {"--label-by-angle", kSurface, Takes::number, &Promise::label_by_angle, 0, 90, true},
     {"--chamfer-radius", kMesh | kPlane, Takes::length, &Promise::chamfer_radius, 0, kMost, true},
-    {"--max-edge", kMesh | kPlane | kImprove, Takes::length, &Promise::max_edge, 0, kMost, true},
+    {"--max-edge", kMesh, Takes::length_or_regions, &Promise::max_edge, 0, kMost, true},
+    {"--max-edge", kPlane | kImprove, Takes::length, &Promise::max_edge, 0, kMost, true},
     {"--size-field", kMesh | kImprove, Takes::sizes},
     {"--size-growth", kMesh | kImprove, Takes::number, &Promise::size_growth, 0, 1, true},
     {"--budget", kMesh, Takes::number, &Promise::budget, 1, 1e15},
@@ -125,11 +129,7 @@ constexpr Option kOptions[] = {
      .takes = Takes::word,
      .target = &Promise::keep,
      .words = {"split", "keep"}},
-    {.name = "--regions",
-     .tasks = kMesh,
-     .takes = Takes::word,
-     .target = &Promise::all_regions,
-     .words = {"solid", "all"}},
+    {.name = "--regions", .tasks = kMesh, .takes = Takes::regions, .target = &Promise::all_regions},
     {"--strict", kMesh, Takes::nothing, &Promise::strict},
     {.name = "--improve",
      .tasks = kMesh,
@@ -282,6 +282,7 @@ class PromiseReader {
     if (p.tolerance != 0 && (p.all_regions || seen_.contains("--exact"))) {
       return "--tolerance: not with --exact nor --regions all";
     }
+    if (!p.all_regions && !p.region_sizes.empty()) return "--max-edge of a region needs --regions";
     if (p.keep || p.all_regions) set_kept(p);
     return {};
   }
@@ -341,6 +342,10 @@ class PromiseReader {
         if (*value_ == option.words[0] || *value_ == option.words[1]) return {};
         return name + " is " + option.words[0] + " or " + option.words[1] +
                (is_surface(option) ? " or auto" : "") + ", not \"" + *value_ + "\"";
+      case Takes::regions:
+        return take_regions(p);
+      case Takes::length_or_regions:
+        return take_lengths(option, p);
       case Takes::number:
       case Takes::length:
       case Takes::length_or_share:
@@ -349,6 +354,47 @@ class PromiseReader {
         put(option, true, p);
         return {};
     }
+  }
+
+  // Between commas.
+  std::vector<std::string> entries() const {
+    std::vector<std::string> found(1);
+    for (const char c : *value_) {
+      if (c == ',') {
+        found.emplace_back();
+      } else {
+        found.back() += c;
+      }
+    }
+    return found;
+  }
+
+  std::string take_regions(Promise& p) const {
+    p.all_regions = *value_ != "solid";
+    p.largest_region = *value_ == "largest";
+    if (!p.all_regions || p.largest_region || *value_ == "all") return {};
+    p.region_names = entries();
+    const bool nameless = std::ranges::find(p.region_names, "") != p.region_names.end();
+    return nameless ? "--regions: a name is missing in \"" + *value_ + "\"" : "";
+  }
+
+  std::string take_lengths(const Option& option, Promise& p) {
+    bool own = false;
+    for (const std::string& entry : entries()) {
+      const std::size_t at = entry.rfind('=');
+      double value = 0;
+      const bool region = at != std::string::npos;
+      if (!parse_number(region ? entry.substr(at + 1) : entry, value) || !option.allows(value) ||
+          at == 0 || (!region && std::exchange(own, true))) {
+        return std::string(option.name) + ": \"" + *value_ + "\" is not a list that it takes";
+      }
+      if (region) {
+        p.region_sizes.emplace_back(entry.substr(0, at), value);
+      } else {
+        p.max_edge = value;
+      }
+    }
+    return {};
   }
 
   std::string take_number(const Option& option, Promise& p) {
@@ -592,6 +638,9 @@ std::string parse_promise(std::string_view text, Promise& promise) {
 void for_each_length(Promise& promise, const std::function<void(double&)>& visit) {
   for (const Option& option : kOptions) {
     if (option.takes == Takes::length) visit(promise.*std::get<double Promise::*>(option.target));
+    if (option.takes == Takes::length_or_regions) {
+      for (auto& region : promise.region_sizes) visit(region.second);
+    }
     if (option.takes != Takes::sizes) continue;
     for (delmesher::SizeSource& source : promise.size_field) {
       for (double& x : source.point) visit(x);
@@ -634,7 +683,10 @@ Promise promise_of(const delmesher::Options& options) {
   p.keep = options.surface == delmesher::SurfaceChoice::keep;
   p.tolerance = options.tolerance;
   p.feature = options.feature;
-  p.all_regions = options.regions == delmesher::Regions::all;
+  p.all_regions = options.regions != delmesher::Regions::solid;
+  p.largest_region = options.regions == delmesher::Regions::largest;
+  p.region_names = options.region_names;
+  for (const auto& [name, size] : options.region_sizes) p.region_sizes.emplace_back(name, size);
   if (p.keep || p.all_regions) set_kept(p);
   return p;
 }

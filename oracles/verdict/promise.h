@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mesher/delmesher_plane.h"
@@ -40,6 +41,11 @@ struct Promise {
   bool may_keep = false;  // or split: the record shows which
   // Every part of space that the triangles bound is a region of its own; the surface is kept.
   bool all_regions = false;
+  // Of these only the largest is written, or those with one of these names.
+  bool largest_region = false;
+  std::vector<std::string> region_names = {};
+  // The longest edge in the regions of a name, in input units.
+  std::vector<std::pair<std::string, double>> region_sizes = {};
   bool strict = false;  // without an exception
   bool names = false;   // sets are called by names of another file
   // The surface may be another one so near, in both directions: in input units, or minus a fraction

@@ -115,6 +115,17 @@ TEST(Promises, AreReadFromCommandLines) {
   EXPECT_TRUE(p.second_order);
   EXPECT_EQ(parse_promise("--order=1", p), "");
   EXPECT_FALSE(p.second_order);
+  EXPECT_EQ(parse_promise("--regions core,block --max-edge=2,core=0.5", p), "");
+  EXPECT_TRUE(p.all_regions && p.keep && !p.largest_region);
+  EXPECT_EQ(p.region_names, std::vector<std::string>({"core", "block"}));
+  EXPECT_EQ(p.max_edge, 2);
+  EXPECT_EQ(p.region_sizes, (std::vector<std::pair<std::string, double>>{{"core", 0.5}}));
+  EXPECT_EQ(parse_promise("--regions largest", p), "");
+  EXPECT_TRUE(p.largest_region && p.region_names.empty());
+  for (const char* text : {"--regions a,", "--regions a --max-edge 1,2", "--max-edge a=1",
+                           "--regions all --max-edge a=0", "--regions all --max-edge =1"}) {
+    EXPECT_NE(parse_promise(text, p), "") << text;
+  }
   // The promises of a text are those of the same options.
   for (const std::string& name : delmesher::options::paper_choices<delmesher::Options>()) {
     delmesher::Options options;
