@@ -1,16 +1,22 @@
 // Checks a surface without meshing it: its validity, its facets and how hard it is to mesh.
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
+#include "mesher/cdt/cdt.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/delmesher.h"
 #include "mesher/delmesher/option_table.h"
+#include "mesher/enrich/enrichment.h"
 #include "mesher/planar/planar.h"
 #include "mesher/policies/fallback.h"
+#include "mesher/results/region_list.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
+#include "mesher/surface/complex.h"
 #include "mesher/surface/feature_size.h"
 #include "mesher/surface/validity.h"
 
@@ -19,6 +25,39 @@ namespace {
 
 // As in the other drivers: policies see the shared folders.
 using namespace policies;  // NOLINT(google-build-using-namespace)
+
+// Several bodies, or something that is no solid: but nothing that no complex has, nor an open
+// surface alone.
+bool may_have_regions(const Surface& surface, const SurfaceReport& report) {
+  using Kind = Defect::Kind;
+  constexpr Kind kOfNoComplex[] = {Kind::non_finite, Kind::index_out_of_range, Kind::empty,
+                                   Kind::degenerate_triangle, Kind::self_intersection};
+  const auto count = [&](Kind kind) {
+    return report.defect_counts[static_cast<std::size_t>(kind)];
+  };
+  if (std::ranges::any_of(kOfNoComplex, [&](Kind kind) { return count(kind) > 0; })) return false;
+  const bool several =
+      std::ranges::adjacent_find(surface.labels, std::not_equal_to()) != surface.labels.end();
+  return report.components > 1 || count(Kind::non_manifold_edge) > 0 ||
+         count(Kind::non_manifold_vertex) > 0 || (several && count(Kind::open_edge) > 0);
+}
+
+// By the constrained tetrahedrization.
+ComplexReport find_regions(const Surface& surface, const Options& options, Control& control) {
+  const MergedSurface merged = merge_repeated(surface);
+  const ValidityResult validity =
+      check_validity(merged.surface, true, control, kMostPlaces, Rules::complex);
+  if (!validity.report.status.ok()) return {};
+  Session s(options, control);
+  const SurfaceTopology topology = with_facet_per_triangle(
+      build_topology(merged.surface, s.points, s.predicates, Rules::complex));
+  if (topology.plane_count == 1) return {};
+  cdt::CdtInput input = enrich::plain_input(topology);
+  input.partition = cdt::Partition::regions;
+  cdt::CdtResult cdt =
+      cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, control);
+  return list_regions(merged, s.points, cdt.mesh).report;
+}
 
 }  // namespace
 
@@ -33,6 +72,9 @@ SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
     control.enter(Phase::check);
     ValidityResult validity = check_validity(surface, false, control);
     report = std::move(validity.report);
+    if (given.want_regions && may_have_regions(surface, report)) {
+      report.complex = find_regions(surface, options, control);
+    }
     if (!report.status.ok()) return report.status;
     Session s(options, control);
     s.diagonal = report.bbox_diagonal;

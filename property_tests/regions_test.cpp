@@ -436,6 +436,35 @@ TEST(SomeRegions, HaveTheirOwnSizes) {
   EXPECT_GT(finer.mesh.tetrahedra.size(), result.mesh.tetrahedra.size());
 }
 
+TEST(Check, ListsRegionsWallsAndLeaks) {
+  Surface surface = solids_of(three_materials());
+  delmesher::CheckOptions options;
+  options.want_regions = true;
+  const delmesher::ComplexReport report = delmesher::check_surface(surface, options).complex;
+  ASSERT_EQ(report.regions.size(), 3U);
+  EXPECT_NEAR(report.regions[1].volume, 216 - 8, 1e-9);
+  EXPECT_EQ(report.regions[1].label, 1);
+  std::map<std::array<std::int32_t, 2>, double> area;
+  for (const auto& wall : report.walls) area[wall.regions] = wall.area;
+  const std::map<std::array<std::int32_t, 2>, double> expected = {
+      {{0, 1}, 5 * 36}, {{0, 2}, 5 * 36}, {{1, 2}, 36}, {{2, 3}, 24}};
+  EXPECT_EQ(area, expected);
+  EXPECT_TRUE(report.open.empty());
+  // Without one of its triangles the core is one region with the shell.
+  const auto torn = std::ranges::find(surface.labels, 2) - surface.labels.begin();
+  const auto gone = surface.triangles[static_cast<std::size_t>(torn)];
+  for (std::size_t t = surface.triangles.size(); t-- > 0;) {  // it is given twice
+    if (!std::ranges::is_permutation(surface.triangles[t], gone)) continue;
+    surface.triangles.erase(surface.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+    surface.labels.erase(surface.labels.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+  const delmesher::ComplexReport leaky = delmesher::check_surface(surface, options).complex;
+  ASSERT_EQ(leaky.regions.size(), 2U);
+  ASSERT_EQ(leaky.open.size(), 2U);  // the core, and the shell as it was given around it
+  EXPECT_EQ(leaky.open[1].label, 2);
+  EXPECT_EQ(leaky.open[1].region, leaky.open[0].region);
+}
+
 TEST(AllRegions, AreNotRefinedNorRecordedYet) {
   Builder builder;
   builder.box({0, 0, 0}, {1, 1, 1});

@@ -195,6 +195,41 @@ TEST_F(Program, RepairWritesNothingWhereNothingIsLeft) {
   EXPECT_FALSE(fs::exists(folder_ / "out.off"));
 }
 
+// Two tetrahedra with a common face; then without a triangle of the second.
+TEST_F(Program, CheckListsRegionsWallsAndLeaks) {
+  const std::string two =
+      "v 0 0 0\nv 6 0 0\nv 0 6 0\nv 0 0 6\nv 0 0 -3\ng copper\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+      "g air\nf 1 2 3\nf 1 5 2\nf 2 5 3\n";
+  write("in.obj", two + "f 3 5 1\n");
+  EXPECT_EQ(run("check in.obj"), 4);
+  const auto said = [&] {
+    const std::string out = text("out.txt");
+    const std::size_t at = std::min(out.find("  regions: "), out.size());
+    return out.substr(at, out.find("  hint: ") - at);
+  };
+  EXPECT_EQ(said(),
+            "  regions: 2\n    copper, volume 36\n    air, volume 18\n  walls: 3\n"
+            "    copper|outside, area 67.1769145, 3 triangles\n"
+            "    air|outside, area 40.0454077, 3 triangles\n"
+            "    copper|air, area 18, 1 triangle\n");
+  EXPECT_EQ(run("check in.obj --json"), 4);
+  EXPECT_NE(text("out.txt").find("\"name\": \"copper|air\""), std::string::npos);
+  EXPECT_EQ(run("in.obj -o air.mesh --regions air"), 0);
+  EXPECT_EQ(run("in.obj -o gold.mesh --regions gold"), 2);
+  EXPECT_NE(text("err.txt").find("no region is called \"gold\": there are air, copper"),
+            std::string::npos)
+      << text("err.txt");
+  EXPECT_EQ(run("in.obj -o fine.mesh --regions all --max-edge air=2"), 0);
+  EXPECT_NE(text("err.txt").find("air: 6 edges of the surface as given are longer than"),
+            std::string::npos)
+      << text("err.txt");
+  write("in.obj", two);
+  EXPECT_EQ(run("check in.obj"), 4);
+  EXPECT_NE(said().find("  `air` is open: one region with the outside, through the gap at (0, "),
+            std::string::npos)
+      << said();
+}
+
 // Boxes side by side, of the vertices of a grid of 3 x 3 x 2, with and without what is between
 // them: what is the matter stands in the line of `mesh`, too.
 TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
