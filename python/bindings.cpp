@@ -93,6 +93,8 @@ std::string type_of(const options::Value& option) {
     if (word.word.empty()) continue;
     type += (type.empty() ? "'" : " or '") + std::string(word.word) + "'";
   }
+  if (option.text.lists == options::Text::Lists::regions) type += " or list of str";
+  if (option.text.lists == options::Text::Lists::values_of_regions) type += " or dict";
   return type;
 }
 
@@ -104,6 +106,12 @@ bool set_option(JobOptions& job, const std::string& name, const py::handle& valu
            rows_of<double, 4>(py::cast<Array<double>>(value), "size_field")) {
         job.size_field.push_back({{x, y, z}, size});
       }
+      return true;
+    }
+  }
+  if constexpr (requires { job.label_names; }) {
+    if (name == "label_names") {
+      job.label_names = py::cast<std::map<std::int32_t, std::string>>(value);
       return true;
     }
   }

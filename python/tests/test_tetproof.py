@@ -273,6 +273,26 @@ def test_bodies_that_share_a_wall_are_regions(tmp_path):
     volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
     assert np.isclose(volumes[mesh.regions == 1].sum(), 2) and np.isclose(volumes[mesh.regions == 2].sum(), 1)
     assert len(mesh.boundary) == len(triangles) - 2
+    sides = mesh.boundary_regions()
+    assert sorted(map(tuple, np.unique(np.sort(sides, axis=1), axis=0))) == [(0, 1), (0, 2), (1, 2)]
+    wall = mesh.boundary[np.sort(sides, axis=1)[:, 0] > 0]
+    assert len(wall) == 2 and (mesh.points[wall][:, :, 0] == 1).all()
+    a, b, c = (mesh.points[mesh.boundary][:, k] for k in range(3))  # the triangle's front is where its normal points
+    for (behind, front), normal, at in zip(sides, np.cross(b - a, c - a), (a + b + c) / 3):
+        for number, x in ((behind, at - 1e-3 * normal), (front, at + 1e-3 * normal)):
+            assert number == (0 if (x < 0).any() or (x > [3, 1, 1]).any() else 2 if x[0] < 1 else 1)
+    copper = mesh.region("copper")
+    assert np.isclose(copper.volumes().sum(), 1) and len(copper.boundary) == 12 and copper.region_names == {2: "copper"}
+    assert len(mesh.region(1).tetrahedra) + len(copper.tetrahedra) == len(mesh.tetrahedra)
+    with pytest.raises(KeyError, match="air, copper"):
+        mesh.region("gold")
+    surface = tetproof.Surface(points, triangles, labels, {1: "copper", 2: "air"})
+    assert np.isclose(tetproof.mesh(surface, regions=["copper"]).volumes().sum(), 1)
+    assert np.isclose(tetproof.mesh(surface, regions="largest").volumes().sum(), 2)
+    with pytest.raises(ValueError, match="air, copper"):
+        tetproof.mesh(surface, regions="gold")
+    fine = tetproof.mesh(surface, regions="all", max_edge={"copper": 0.3})
+    assert len(fine.region("copper").tetrahedra) > 2 * len(copper.tetrahedra)
 
 
 @pytest.mark.parametrize("with_tqdm", [False, True])
@@ -479,7 +499,7 @@ def test_messages_speak_python():
         tetproof.mesh(POINTS, TRIANGLES, max_edge=0.1, max_vertices=20)
     with pytest.raises(ValueError, match="^strict needs surface='keep'$"):
         tetproof.mesh(POINTS, TRIANGLES, strict=True)
-    with pytest.raises(ValueError, match="^chamfer_radius does nothing with regions='all'$"):
+    with pytest.raises(ValueError, match="^chamfer_radius does nothing with regions$"):
         tetproof.mesh(POINTS, TRIANGLES, regions="all", chamfer_radius=1)
     with pytest.raises(ValueError, match="size_growth: of no effect without size_field"):
         tetproof.mesh(POINTS, TRIANGLES, size_growth=0.5)

@@ -199,7 +199,7 @@ class Mesh:
     inside : (t,) bool
         In the solid: all of them, unless the region is the hull.
     regions : (t,) int32 or empty
-        Of meshes from elsewhere.
+        With ``regions="all"``, largest first, and of meshes from elsewhere.
     boundary : (b, 3) int32
         The triangles that tile the surface, counter-clockwise seen from outside.
     labels, facets : (b,) int32
@@ -230,6 +230,29 @@ class Mesh:
         angle = "smallest dihedral angle %.2f degrees" % refined["min_dihedral"] if refined else ""
         return _line("Mesh", (len(self.points), "points"), (len(self.tetrahedra), "tetrahedra"), (len(self.boundary), "boundary triangles"),
                      more=angle)
+
+    def boundary_regions(self) -> Array:
+        """(b, 2) int32: the regions behind each boundary triangle, from where it is seen clockwise, and in front; 0 where there is none."""
+        faces = np.concatenate([self.tetrahedra[:, list(f)] for f in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))])  # seen from outside
+        start = np.argmin(self.boundary, axis=1)[:, None]
+        turned = [np.take_along_axis(self.boundary, (start + np.array(k)) % 3, axis=1) for k in ((0, 1, 2), (0, 2, 1))]
+        own = np.take_along_axis(faces, (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3, axis=1)
+        region = {tuple(face): number for face, number in zip(own.tolist(), np.tile(self._regions(), 4).tolist())}
+        sides: Array = np.array([[region.get(tuple(face), 0) for face in side.tolist()] for side in turned], np.int32)
+        return sides.T
+
+    def region(self, which: Union[str, int]) -> "Mesh":
+        """The mesh of one region, by its name or number, with the boundary triangles at it."""
+        named = [number for number, name in self.region_names.items() if name == which]
+        numbers = named or [number for number in np.unique(self._regions()).tolist() if number == which]
+        if not numbers:
+            raise KeyError("no region %r: there are %s" % (which, ", ".join(sorted(self.region_names.values())) or "no names"))
+        inside, at = np.isin(self._regions(), numbers), np.isin(self.boundary_regions(), numbers).any(axis=1)
+        points, tetrahedra = np.unique(self.tetrahedra[inside], return_inverse=True)
+        boundary = np.searchsorted(points, self.boundary[at]).astype(np.int32)
+        return dataclasses.replace(self, points=self.points[points], tetrahedra=tetrahedra.reshape(-1, 4).astype(np.int32), inside=self.inside[inside],
+                                   boundary=boundary, labels=self.labels[at], facets=self.facets[at], regions=self._regions()[inside], stats={},
+                                   region_names={number: name for number, name in self.region_names.items() if number in numbers})
 
     def _regions(self) -> Array:
         return self.regions if len(self.regions) else np.where(self.inside, 1, 2).astype(np.int32)
@@ -491,6 +514,15 @@ def _with_options(function: _Function) -> _Function:
     return function
 
 
+def _value(value: Any) -> Union[str, float]:
+    """Names of regions, and lengths in some, as one text."""
+    if isinstance(value, Mapping):
+        return ",".join(str(x) if name is None else "%s=%r" % (name, float(x)) for name, x in value.items())
+    if isinstance(value, (list, tuple)):
+        return ",".join(value)
+    return value if isinstance(value, str) else float(value)
+
+
 def _options(job: str, given: Mapping[str, Any]) -> Dict[str, Any]:
     options = {name: value for name, value in given.items() if value is not None}
     names = [name for name, *_ in _core.options[job]]
@@ -501,7 +533,7 @@ def _options(job: str, given: Mapping[str, Any]) -> Dict[str, Any]:
         raise TypeError("no such option: %s%s" % (", ".join(unknown), hint))
     if "size_growth" in options and "size_field" not in options:
         raise ValueError("size_growth: of no effect without size_field")
-    named: Dict[str, Any] = {name: value if isinstance(value, str) else float(value) for name, value in options.items() if name != "size_field"}
+    named: Dict[str, Any] = {name: _value(value) for name, value in options.items() if name != "size_field"}
     if "size_field" in options:
         named["size_field"] = np.ascontiguousarray(options["size_field"], dtype=np.float64)
     return named
@@ -589,8 +621,8 @@ def _shown(progress: Any) -> Iterator[Any]:
         bar.close()
 
 
-def _run(job: str, given: Tuple[Any, ...], progress: Any, options: Mapping[str, Any]) -> Dict[str, Any]:
-    named = _options(job, options)
+def _run(job: str, given: Tuple[Any, ...], progress: Any, options: Mapping[str, Any], **more: Any) -> Dict[str, Any]:
+    named = {**_options(job, options), **more}
     with _shown(progress) as shown:
         result: Dict[str, Any] = getattr(_core, job)(*given, named, shown)
     return result
@@ -601,9 +633,11 @@ def _run_on_surface(job: str, points: Any, triangles: Any, labels: Any, progress
     """The result, and what the labels are called."""
     points = _read_first(points, triangles)
     arrays = _surface(points, triangles, labels)
-    result = _run(job, arrays, progress, options)
+    names = getattr(points, "names", None)
+    more = {"label_names": dict(names or {})} if job == "mesh" else {}
+    result = _run(job, arrays, progress, options, **more)
     _raise(result, lambda: check(*arrays[:2]))
-    return result, getattr(points, "names", None)
+    return result, names
 
 
 @_with_options
@@ -618,7 +652,7 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
         Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
     labels : (m,) array_like of int, optional
         Come back on the boundary. With ``regions="all"`` a region has the name of the smallest solid that the triangles of a label bound
-        around it.
+        around it. Names of regions may be a list; of `max_edge` also ``{"copper": 0.2}``, with None for the rest.
     progress : callable or True, optional
         ``progress(phase, done, vertices)``, called several times a second; False ends the run with `Interrupted`, an
         exception ends it with that. True shows a bar.
