@@ -64,18 +64,24 @@ def one_line(text):
 
 
 class Finder:
-    """Collects the sites of one translation unit in the files under some folders."""
+    """Collects the sites of translation units in the files under some folders."""
 
     def __init__(self, root, wanted):
         self.root, self.wanted, self.index = root.rstrip("/") + "/", wanted, cindex.Index.create()
         self.texts, self.sites, self.seen = {}, {}, set()
 
-    def parse(self, source, arguments):
-        unit = self.index.parse(source, args=arguments,
+    def parse(self, sources, arguments):
+        """All of them at once; one by one if they do not agree."""
+        together = self.root + "together.cpp"
+        unit = self.index.parse(together, args=arguments, unsaved_files=[(together, "".join(f'#include "{s}"\n' for s in sources))],
                                 options=cindex.TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD)
         errors = [d for d in unit.diagnostics if d.severity >= cindex.Diagnostic.Error]
+        if errors and len(sources) > 1:
+            for source in sources:
+                self.parse([source], arguments)
+            return
         if errors:
-            raise RuntimeError(f"{source}: {errors[0].spelling}")
+            raise RuntimeError(f"{sources[0]}: {errors[0].spelling}")
         self.macros = {}
         files = set()
         for cursor in unit.cursor.get_children():
