@@ -107,8 +107,8 @@ void PlaneFaces::join_components() {
 std::optional<PlaneFaces::Crossing> PlaneFaces::crossing(Index piece, const Point& p) const {
   const auto& [a, b, segment] = graph_.pieces()[piece];
   const Point &first = graph_.vertex(a), &last = graph_.vertex(b);
-  const bool up = first.y <= p.y;
-  if (up == (last.y <= p.y)) return std::nullopt;
+  const bool up = first.below(p);
+  if (up == last.below(p)) return std::nullopt;
   Crossing found;
   found.slope = (last.x - first.x) / (last.y - first.y);
   found.x = first.x + (p.y - first.y) * found.slope;
@@ -117,40 +117,39 @@ std::optional<PlaneFaces::Crossing> PlaneFaces::crossing(Index piece, const Poin
   return found;
 }
 
-// Where about the piece is as high as the point; 0 where doubles overflow.
-double PlaneFaces::crossing_near(const PlaneGraph::Piece& piece, const Point& p) const {
+// Between which numbers the piece certainly is where it is as high as the point; between any where
+// doubles overflow.
+std::pair<double, double> PlaneFaces::crossing_near(const PlaneGraph::Piece& piece,
+                                                    const Point& p) const {
   const Point &a = graph_.vertex(piece.a), &b = graph_.vertex(piece.b);
-  const double x = a.dx + (p.dy - a.dy) * ((b.dx - a.dx) / (b.dy - a.dy));
-  return std::isfinite(x) ? x : 0;
-}
-
-// Is the piece certainly to the right of x where it is as high as the point?
-bool PlaneFaces::is_beyond(const PlaneGraph::Piece& piece, const Point& p, double x) const {
-  const Point &a = graph_.vertex(piece.a), &b = graph_.vertex(piece.b);
-  const double slope = (b.dx - a.dx) / (b.dy - a.dy), there = crossing_near(piece, p);
+  const double slope = (b.dx - a.dx) / (b.dy - a.dy), x = a.dx + (p.dy - a.dy) * slope;
   const double size = std::fabs(a.dx) + std::fabs(a.dy) + std::fabs(p.dy) + std::fabs(x);
-  return std::isfinite(slope) && there - 1e-12 * (1 + std::fabs(slope)) * size - 1e-300 > x;
+  const double error = 1e-12 * (1 + std::fabs(slope)) * size + 1e-300;
+  if (!std::isfinite(error)) return {-HUGE_VAL, HUGE_VAL};
+  return {x - error, x + error};
 }
 
 // The border of the face that a point is in, or that begins above a vertex: that of the first piece
 // on the ray to the right.
 PlaneFaces::Index PlaneFaces::border_right_of(const Point& p) {
-  std::optional<Crossing> nearest;
   const double off = 1e-14 * std::fabs(p.dy);
   const PlaneBoxes::Box ray{{p.dx - 1e-14 * std::fabs(p.dx), p.dy - off}, {HUGE_VAL, p.dy + off}};
-  // Those that are about the nearest are tried first, so that few are tried.
+  // The ray may meet as many as there are: all but about the nearest are left out by doubles.
+  double least = HUGE_VAL;
   std::vector<std::pair<double, Index>> pieces;
   graph_.near_segments(ray, [&](Index s) {
     for (const Index piece : graph_.pieces_of()[s]) {
       const auto& [a, b, segment] = graph_.pieces()[piece];
-      const Point &first = graph_.vertex(a), &last = graph_.vertex(b);
-      if ((first.y <= p.y) == (last.y <= p.y)) continue;
-      pieces.emplace_back(crossing_near(graph_.pieces()[piece], p), piece);
+      if (graph_.vertex(a).below(p) == graph_.vertex(b).below(p)) continue;
+      const auto [from, to] = crossing_near(graph_.pieces()[piece], p);
+      if (to < p.dx - 1e-14 * std::fabs(p.dx) || from > least) continue;
+      if (from > p.dx + 1e-14 * std::fabs(p.dx)) least = std::min(least, to);
+      pieces.emplace_back(from, piece);
     }
   });
-  std::ranges::sort(pieces);
-  for (const auto& [x, piece] : pieces) {
-    if (nearest && is_beyond(graph_.pieces()[piece], p, nearest->x.get_d())) continue;
+  std::optional<Crossing> nearest;
+  for (const auto& [from, piece] : pieces) {
+    if (from > least) continue;
     std::optional<Crossing> found = crossing(piece, p);
     if (found && (!nearest || *found < *nearest)) nearest = std::move(found);
   }

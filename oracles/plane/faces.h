@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "oracles/base/union_find.h"
@@ -38,8 +39,7 @@ class PlaneFaces {
   void find_inside();
   std::vector<Index> outermost() const;
   std::optional<Crossing> crossing(Index piece, const Point& p) const;
-  double crossing_near(const PlaneGraph::Piece& piece, const Point& p) const;
-  bool is_beyond(const PlaneGraph::Piece& piece, const Point& p, double x) const;
+  std::pair<double, double> crossing_near(const PlaneGraph::Piece& piece, const Point& p) const;
   Index border_right_of(const Point& p);
 
   PlaneGraph& graph_;

@@ -138,9 +138,9 @@ bool PlaneGraph::inside_by_ray(const Point& c) {
   near_segments({{c.dx - 1e-14 * std::fabs(c.dx), below}, {HUGE_VAL, above}}, [&](Index s) {
     if (!separates(s)) return;
     const Point &a = vertex(graph_.segments[s][0]), &b = vertex(graph_.segments[s][1]);
-    const bool below_a = a.y <= c.y, below_b = b.y <= c.y;
-    if (below_a == below_b) return;
-    if ((points_.orient(a, b, c) > 0) == below_a) inside = !inside;
+    const bool up = a.below(c);
+    if (up == b.below(c)) return;
+    if ((points_.orient(a, b, c) > 0) == up) inside = !inside;
   });
   return inside;
 }

@@ -14,7 +14,9 @@ class PlanePoints {
   using Index = std::uint32_t;
   struct Point {
     mpq_class x, y;
-    double dx, dy;  // rounded
+    double dx, dy;  // rounded, in one way for all
+    // Is it no higher than the other one?
+    bool below(const Point& other) const { return dy != other.dy ? dy < other.dy : y <= other.y; }
   };
 
   void add(Point point);
