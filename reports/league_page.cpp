@@ -276,21 +276,52 @@ std::string section(Table table) {
   return table.rows.empty() ? "" : to_markdown(table).substr(1);
 }
 
-std::string page_of(const Selection& selection, const EqualLimits& limits,
-                    const LeagueOptions& options, const std::string& csv,
-                    const std::string& meshers_csv) {
-  std::string under = "the same limits";
-  if (limits.kinds > 1) {
-    under = "limits that differ";
-    std::vector<std::string> least;
-    if (limits.seconds) least.push_back(fmt::format("{:g} s of processor time", *limits.seconds));
-    if (limits.mebibytes) least.push_back(fmt::format("{:g} MiB", *limits.mebibytes));
-    if (!least.empty()) {
-      under +=
-          fmt::format(": what took more than the least of them, {}, counts as if it had met them",
-                      fmt::join(least, " and "));
+// Who succeeds, how good, how heavy: the columns of the others that one reads first.
+Table short_table(const Selection& selection, const EqualLimits& limits) {
+  const Table league = league_table(selection), pairs = pair_table(selection);
+  Table table;
+  table.title = "Success, shape, weight, time";
+  table.header = {"Mesher", "Promise", "Models", "Ok, % (95 % interval)", "Wrong"};
+  const std::vector<std::string> taken = {
+      "Mesher",       "Promise",      "Runs",      "Ok, % (95 % interval)",
+      "wrong-result", "min dihedral", "mean gamma"};
+  const auto cell = [](const Table& of, const std::vector<std::string>& row,
+                       const std::string& head) {
+    const auto at = std::find(of.header.begin(), of.header.end(), head) - of.header.begin();
+    return row[static_cast<std::size_t>(at)];
+  };
+  const std::vector<std::string> ratios = {"tets, it / ours", "s, it / ours"};
+  table.header.insert(table.header.end(), {"Smallest dihedral", "Mean gamma"});
+  table.header.insert(table.header.end(), ratios.begin(), ratios.end());
+  if (limits.kinds > 1) table.header.emplace_back("Ok under its own limits");
+  for (const auto& row : league.rows) {
+    auto& cells = table.rows.emplace_back();
+    for (const std::string& head : taken) cells.push_back(cell(league, row, head));
+    const auto pair = std::find_if(pairs.rows.begin(), pairs.rows.end(),
+                                   [&](const auto& other) { return other[0] == row[0]; });
+    for (const std::string& head : ratios) {
+      cells.push_back(pair == pairs.rows.end() ? "1" : cell(pairs, *pair, head));
     }
+    if (limits.kinds > 1) cells.push_back(std::to_string(limits.own.at(row[0])));
   }
+  return table;
+}
+
+// The limits under which runs are compared, as words.
+std::string under(const EqualLimits& limits) {
+  if (limits.kinds <= 1) return "the same limits";
+  std::vector<std::string> least;
+  if (limits.seconds) least.push_back(fmt::format("{:g} s of processor time", *limits.seconds));
+  if (limits.mebibytes) least.push_back(fmt::format("{:g} MiB", *limits.mebibytes));
+  if (least.empty()) return "limits that differ";
+  return fmt::format(
+      "limits that differ: what took more than the least of them, {}, counts as if it had met them",
+      fmt::join(least, " and "));
+}
+
+// What one reads in three minutes. The pictures are those of docs/pictures/league.py, if they are
+// there.
+std::string page_of(const Selection& selection, const EqualLimits& limits, const fs::path& page) {
   std::size_t runs = 0;
   for (const std::string& mesher : selection.meshers) runs += run_count(selection, mesher);
   const auto complete = std::count_if(
@@ -298,25 +329,37 @@ std::string page_of(const Selection& selection, const EqualLimits& limits,
         return std::all_of(selection.meshers.begin(), selection.meshers.end(),
                            [&](const auto& m) { return selection.run(m, model) != nullptr; });
       });
+  const std::string stem = page.stem().string();
   std::string text = fmt::format(
-      "# The league\n\nEvery available mesher on a collection, each run in its own process, under "
-      "{}, on one thread, judged by the same oracles.\n`ci/league` runs it on any collection; "
-      "`tetproof report --league` writes this page, except for \"What was learnt\".\n\n{} models, "
-      "{} meshers, {} runs; {} models have a run of each mesher. Run by run: [{}]({}). Versions, "
-      "flags and limits: [{}]({}); licences: `corpus/README.md`.\n\n",
-      under, selection.models.size(), selection.meshers.size(), runs, complete, csv, csv,
-      meshers_csv, meshers_csv);
-  Table league = league_table(selection);
-  league.caption = "";  // the limits stand above
-  if (limits.kinds > 1) {
-    league.header.emplace_back("ok under its own limits");
-    for (auto& row : league.rows) row.push_back(std::to_string(limits.own.at(row[0])));
+      "# The league\n\n{} models, {} meshers, {} runs ({} models have a run of each), one process "
+      "each on one thread, under {}, judged by the same oracles. Ok: the oracles have nothing "
+      "against the mesh, as measured by what the mesher promises. Medians of its own successes; "
+      "the last columns are medians over the models on which ours succeeds, too.\n\n",
+      selection.models.size(), selection.meshers.size(), runs, complete, under(limits));
+  text += section(short_table(selection, limits));
+  for (const char* name : {"success", "time", "shape"}) {
+    const std::string picture = fmt::format("pictures/{}-{}", stem, name);
+    if (!fs::exists(page.parent_path() / (picture + "-light.png"))) continue;
+    text += fmt::format(
+        "\n<picture><source media=\"(prefers-color-scheme: dark)\" srcset=\"{0}-dark.png\"><img "
+        "alt=\"{1} of the meshers\" src=\"{0}-light.png\"></picture>\n",
+        picture, name);
   }
-  text += section(league);
+  return text + fmt::format(
+                    "\n[All tables]({0}_tables.md) · [run by run]({0}.csv) · [versions, flags and "
+                    "limits]({0}_meshers.csv). `ci/league` runs it on any collection; `tetproof "
+                    "report --league` writes these files.\n\n",
+                    stem);
+}
+
+std::string tables_of(const Selection& selection, const EqualLimits& limits,
+                      const Families& families) {
+  Table league = league_table(selection);
+  league.caption = "Under " + under(limits) + ".";
+  std::string text = "# Tables of the league\n\n" + section(league);
   for (const Table& table : group_tables(selection)) text += section(table);
-  text += section(pair_table(selection)) + section(family_table(selection, options.families)) +
-          section(failure_kinds(selection)) + section(solver_table(selection));
-  return text;
+  return text + section(pair_table(selection)) + section(family_table(selection, families)) +
+         section(failure_kinds(selection)) + section(solver_table(selection));
 }
 
 }  // namespace
@@ -349,8 +392,7 @@ void write_league(const std::vector<fs::path>& campaigns, const fs::path& page,
       row.key.model_sha256 = row.key.model_sha256.substr(0, kHashDigits);
       if (!is_page && !row.inside) row.inside = inside_by_oracles(row);
       row.started.clear();  // the order of the campaigns counts
-      const auto& out = options.left_out;
-      if (std::find(out.begin(), out.end(), row.key.mesher) == out.end()) rows.push_back(row);
+      rows.push_back(row);
     }
   }
   if (rows.empty()) throw std::runtime_error("no runs");
@@ -376,15 +418,22 @@ void write_league(const std::vector<fs::path>& campaigns, const fs::path& page,
       meshers.rows.push_back(row);
     }
   }
+  std::erase_if(rows, [&](const RunRow& row) {
+    const auto& out = options.left_out;
+    return std::find(out.begin(), out.end(), row.key.mesher) != out.end();
+  });
+  if (rows.empty()) throw std::runtime_error("no runs");
+  selection = select_runs(latest_of(rows));
+  use_processor_time(selection);
   const EqualLimits limits = make_limits_equal(selection);
-  const fs::path csv = fs::path(page).replace_extension(".csv"), beside = meshers_beside(csv);
-  const std::string text =
-      page_of(selection, limits, options, csv.filename().string(), beside.filename().string()) +
-      by_hand(page);
-  // All three or none.
-  const std::pair<fs::path, std::string> files[] = {{csv, without_returns(to_csv(runs))},
-                                                    {beside, without_returns(to_csv(meshers))},
-                                                    {page, text}};
+  const fs::path csv = fs::path(page).replace_extension(".csv");
+  // All of them or none.
+  const std::pair<fs::path, std::string> files[] = {
+      {csv, without_returns(to_csv(runs))},
+      {meshers_beside(csv), without_returns(to_csv(meshers))},
+      {fs::path(page).replace_extension().string() + "_tables.md",
+       tables_of(selection, limits, options.families)},
+      {page, page_of(selection, limits, page) + by_hand(page)}};
   for (const auto& [path, contents] : files) {
     if (fs::is_directory(path)) throw std::runtime_error(path.string() + ": is a folder");
     write_new(path.string() + ".new", contents);

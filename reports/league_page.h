@@ -21,12 +21,12 @@ std::vector<RunRow> read_league(const std::filesystem::path& csv);
 struct LeagueOptions {
   Families families;
   std::string commit;                 // of which our own programs are; empty: not known
-  std::vector<std::string> left_out;  // meshers
+  std::vector<std::string> left_out;  // meshers whose runs stay in PAGE.csv alone
 };
 
-// Writes PAGE.md, PAGE.csv and PAGE_meshers.csv from campaigns (results files, or .csv of earlier
-// pages) in the order of time. What stands in PAGE.md from the line "<!-- by hand -->" on stays.
-// \throw std::runtime_error if there is no run, or a file cannot be read or written.
+// Writes PAGE.md, PAGE_tables.md, PAGE.csv and PAGE_meshers.csv from campaigns (results files, or
+// .csv of earlier pages) in the order of time. What stands in PAGE.md from the line "<!-- by hand
+// -->" on stays. \throw std::runtime_error if there is no run, or a file cannot be read or written.
 void write_league(const std::vector<std::filesystem::path>& campaigns,
                   const std::filesystem::path& page, const LeagueOptions& options);
 

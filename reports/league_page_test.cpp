@@ -69,7 +69,9 @@ TEST_F(LeaguePage, APageOfItsOwnRunsIsTheSame) {
   const std::string first = page({runs}, {.families = {}, .commit = "abc1234", .left_out = {}});
   const std::string csv = text_of(path("page.csv")), meshers = text_of(path("page_meshers.csv"));
   EXPECT_NE(meshers.find("1 of abc1234"), std::string::npos) << meshers;
+  const std::string tables = text_of(path("page_tables.md"));
   EXPECT_EQ(page({path("page.csv")}), first);
+  EXPECT_EQ(text_of(path("page_tables.md")), tables);
   EXPECT_EQ(text_of(path("page.csv")), csv);
   EXPECT_EQ(text_of(path("page_meshers.csv")), meshers);
 }
@@ -103,7 +105,8 @@ TEST_F(LeaguePage, LimitsThatDifferAreMadeEqual) {
   slow.cpu_seconds = 21;
   quick.cpu_seconds = 20;
   quick.peak_rss_bytes = 3 << 20;
-  const std::string text = page({campaign("runs", {slow, quick, narrow})});
+  std::string text = page({campaign("runs", {slow, quick, narrow})});
+  text += text_of(path("page_tables.md"));
   EXPECT_NE(text.find("the least of them, 20 s of processor time and 2 MiB"), std::string::npos);
   for (const char* how : {"timeout", "out-of-memory"}) {
     const std::regex row("delmesher \\| +" + std::string(how) + " \\| +1 \\|");
@@ -121,6 +124,30 @@ TEST_F(LeaguePage, TheOraclesTellWhatIsInsideIfTheFileDoesNot) {
   page({campaign("runs", {whole})});
   EXPECT_EQ(column("tetrahedra"), std::vector<std::string>{"7"});
   EXPECT_EQ(column("min_dihedral"), std::vector<std::string>{"20.5"});
+}
+
+TEST_F(LeaguePage, TheFirstTableHasARowPerMesherBesideOurs) {
+  RunRow heavy = run("a", "netgen", 15), ours = run("a", "delmesher", 5);
+  heavy.cpu_seconds = 4;
+  const std::string text =
+      page({campaign("runs", {ours, heavy, run("b", "netgen", 0, Disposition::wrong_result)})});
+  const std::regex own(R"(\| delmesher +\|.*\| +1 \| +1 \|\n)"),
+      other(R"(\| netgen +\| +2 \| +50\.0 \(.*\) +\| +1 \|.*\| +3\.00 \| +4\.00 \|\n)");
+  EXPECT_TRUE(std::regex_search(text, own)) << text;
+  EXPECT_TRUE(std::regex_search(text, other)) << text;
+  EXPECT_EQ(text.find("<picture>"), std::string::npos);
+  fs::create_directories(path("pictures"));
+  std::ofstream(path("pictures/page-time-light.png")) << "x";
+  EXPECT_NE(page({path("page.csv")}).find("srcset=\"pictures/page-time-dark.png\""),
+            std::string::npos);
+}
+
+TEST_F(LeaguePage, WhatIsLeftOffThePageStaysBesideIt) {
+  const fs::path runs = campaign("runs", {run("a", "delmesher", 5), run("a", "netgen", 9)});
+  const std::string text = page({runs}, {.families = {}, .commit = "", .left_out = {"netgen"}});
+  EXPECT_EQ(text.find("netgen"), std::string::npos) << text;
+  EXPECT_EQ(text_of(path("page_tables.md")).find("netgen"), std::string::npos);
+  EXPECT_EQ(column("tetrahedra").size(), 2U);
 }
 
 TEST_F(LeaguePage, WhatIsWrittenByHandStays) {
