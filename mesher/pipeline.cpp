@@ -608,7 +608,9 @@ Result run_within(const Surface& surface, const Options& options, const LocalFra
 
 }  // namespace
 
-Result tetrahedralize(const Surface& surface, const Options& options) {
+Result tetrahedralize(const Surface& surface, const Options& given) {
+  Options options = given;
+  options.max_edge = bound_on_edges(given);
   if (options.regions != Regions::solid) return in_ordinary_units(surface, options, run_complex);
   Task& task =
       *(options.surface == SurfaceChoice::keep ? &run_within<run_kept> : &run_within<run_mesh>);

@@ -32,7 +32,9 @@ RemeshResult run_remeshing(const Surface& surface, const RemeshOptions& options)
 
 }  // namespace
 
-RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options) {
+RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& given) {
+  RemeshOptions options = given;
+  options.max_edge = bound_on_edges(given);
   return in_ordinary_units(surface, options, run_remeshing);
 }
 

@@ -98,8 +98,8 @@ void FileStep::check_lengths(const TetComplex& complex, std::span<const double> 
   for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, each, scope())) {
     const bool edges = lengths.name == "edges";
     if (!(keep && edges && fine)) {
-      excuse_long_edges(edges ? "--max-edge" : "--size-field", keep || exact_ != nullptr, lengths,
-                        report_.unproven);
+      excuse_long_edges(edges ? options_.promised.bound_on_edges() : "--size-field",
+                        keep || exact_ != nullptr, lengths, report_.unproven);
     }
     add(std::move(lengths));
   }

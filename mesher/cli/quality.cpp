@@ -244,7 +244,8 @@ std::string quality_text(const PlaneResult& result) {
 
 std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& options) {
   const geometry::SizeField sizes(options.size_field, options.size_growth);
-  if (options.max_edge <= 0 && sizes.empty()) return {};
+  const double bound = bound_on_edges(options);
+  if (bound <= 0 && sizes.empty()) return {};
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     if (options.region == Region::interior && !mesh.inside.empty() && mesh.inside[t] == 0) continue;
@@ -298,9 +299,9 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
     warn_of(given, " of the surface as given", option, is_too_long);
     warn_of(rest, "", option, is_too_long);
   };
-  if (options.max_edge > 0) {
-    const double most = options.max_edge * (1 + 1e-9);
-    warn("--max-edge",
+  if (bound > 0) {
+    const double most = bound * (1 + 1e-9);
+    warn(options.max_edge > 0 ? "--max-edge" : "--size",
          [most](const Vec3& a, const Vec3& b) { return norm(subtract(b, a)) > most; });
   }
   if (!sizes.empty()) {

@@ -231,6 +231,16 @@ inline constexpr std::tuple kTable{
          .zero_is_none = true,
          .promised = true},
         &PlaneOptions::max_edge),
+    Row({.name = "size",
+         .help =
+             "edges of this length on average, none above 1.45 times it, shorter ones where the "
+             "surface has them",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .zero_is_none = true,
+         .promised = true,
+         .with_kept_surface = true},
+        &Options::size, &RemeshOptions::size),
     Row({.name = "max_edge",
          .help = "no longer edge is made",
          .bounds = kAnyLength,

@@ -52,7 +52,7 @@ std::vector<OracleReport> check_edge_lengths(const TetComplex& complex, const Pr
       const double most = longest.empty() ? promise.max_edge : longest[t];
       return most > 0 ? exact::distance(points, v, w) / most : 0;
     };
-    reports.push_back(check(complex, scope, "edges", "--max-edge", over));
+    reports.push_back(check(complex, scope, "edges", promise.bound_on_edges(), over));
   }
   if (!promise.size_field.empty()) {
     const EdgeSizes sizes(promise.size_field, promise.size_growth);

@@ -107,6 +107,7 @@ constexpr Option kOptions[] = {
     {"--chamfer-radius", kMesh | kPlane, Takes::length, &Promise::chamfer_radius, 0, kMost, true},
     {"--max-edge", kMesh, Takes::length_or_regions, &Promise::max_edge, 0, kMost, true},
     {"--max-edge", kPlane | kImprove, Takes::length, &Promise::max_edge, 0, kMost, true},
+    {"--size", kMesh, Takes::length, &Promise::size, 0, kMost, true},
     {"--size-field", kMesh | kImprove, Takes::sizes},
     {"--size-growth", kMesh | kImprove, Takes::number, &Promise::size_growth, 0, 1, true},
     {"--budget", kMesh, Takes::number, &Promise::budget, 1, 1e15},
@@ -256,6 +257,13 @@ void set_kept(Promise& p) {
   p.planar = 0;
 }
 
+// Edges of a length on average are no longer than 1.45 times it.
+void bound_edges(Promise& p) {
+  const double most = 1.45 * p.size;
+  p.edges_by_size = p.size > 0 && !(p.max_edge > 0 && p.max_edge < most);
+  if (p.edges_by_size) p.max_edge = most;
+}
+
 class PromiseReader {
  public:
   explicit PromiseReader(std::string_view text) : words_(words_of(text)) {}
@@ -283,6 +291,7 @@ class PromiseReader {
       return "--tolerance: not with --exact nor --regions all";
     }
     if (!p.all_regions && !p.region_sizes.empty()) return "--max-edge of a region needs --regions";
+    bound_edges(p);
     if (p.keep || p.all_regions) set_kept(p);
     return {};
   }
@@ -674,6 +683,7 @@ Promise promise_of(const delmesher::Options& options) {
   p.region = options.region;
   p.chamfer_radius = options.chamfer_radius;
   p.max_edge = options.max_edge;
+  p.size = options.size;
   p.size_field = options.size_field;
   p.size_growth = options.size_growth;
   p.budget = static_cast<double>(options.budget);
@@ -687,6 +697,7 @@ Promise promise_of(const delmesher::Options& options) {
   p.largest_region = options.regions == delmesher::Regions::largest;
   p.region_names = options.region_names;
   for (const auto& [name, size] : options.region_sizes) p.region_sizes.emplace_back(name, size);
+  bound_edges(p);
   if (p.keep || p.all_regions) set_kept(p);
   return p;
 }

@@ -67,6 +67,8 @@ struct Promise {
   delmesher::Region region = delmesher::Region::interior;
   double chamfer_radius = 0;                           // input units; 0: no bound
   double max_edge = 0;                                 // input units; 0: no bound
+  double size = 0;                                     // of edges on average; 0: any
+  bool edges_by_size = false;                          // max_edge follows from it
   std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
   double size_growth = 0.3;
   double budget = 0;  // tetrahedra; 0: tau is not raised
@@ -78,6 +80,9 @@ struct Promise {
   // an option that only the refinement uses it may not be, nor with a bound on edges below the
   // longest one of the input (input units).
   void settle(const delmesher::ExactRecord& record, double longest_edge);
+
+  // The option that max_edge is of.
+  const char* bound_on_edges() const { return edges_by_size ? "--size" : "--max-edge"; }
 
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
   // fraction of the diagonal: as stated, within what was asked for. If nothing is stated, `auto` is
