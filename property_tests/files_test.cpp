@@ -105,6 +105,21 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
   }
 }
 
+TEST_F(Files, ATolerance) {
+  write_off("in.off", samples::l_shape().input);
+  ASSERT_EQ(run("mesh -q --tolerance 1e-2d " + path("in.off") + " -o " + path("out.mesh")), 0);
+  const std::string promised = "mesh --tolerance 1e-2d";
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--promised", promised}), 0);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + " -o " + path("exact.mesh") + " --exact " +
+                path("out.exact")),
+            0);
+  EXPECT_EQ(verify({path("in.off"), path("exact.mesh"), "--promised", promised, "--exact",
+                    path("out.exact")}),
+            2);
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--promised", promised, "--envelope", "0.1"}),
+            2);
+}
+
 TEST_F(Files, WhatIsCompressedWithGzipIsVerified) {
   write_off("in.off", samples::l_shape().input);
   write("in.poly", "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");

@@ -225,6 +225,45 @@ TEST(PlaneLies, NamesTheTriangleThatRefersToNoVertex) {
             complex->findings.end());
 }
 
+// The run was of a square. Sheared to one side or the other, a corner of one of its two triangles
+// is in the disc of the opposite edge.
+TEST(PlaneLies, NoCornerIsInTheDiscOfASegment) {
+  PlanarGraph square;
+  square.vertices = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  square.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const Told run = run_of(honest_options(), square);
+  ASSERT_TRUE(verdict_on(run).all_passed()) << to_text(verdict_on(run));
+  ASSERT_EQ(run.file.triangles.size(), 2U);
+  int caught = 0;
+  for (const double shear : {-2.0, 2.0}) {
+    Told told = run;
+    for (const Index v : {2U, 3U}) {
+      auto& [x, y] = told.graph.vertices[v];
+      x += shear;
+      y = 1;
+      told.record.points[v].x = x;
+      told.record.points[v].y = y;
+      told.file.vertices[v] = told.graph.vertices[v];
+    }
+    caught += says(verdict_on(told), "refined-encroachment", "in the disc of an edge") ? 1 : 0;
+  }
+  EXPECT_GE(caught, 1);
+}
+
+TEST(PlaneLies, NoTriangleCoversThePointOfAHole) {
+  Told told;
+  told.graph.vertices = {{0, 0}, {4, 0}, {0, 4}};
+  told.graph.segments = {{0, 1}, {1, 2}, {2, 0}};
+  told.graph.holes = {{1, 1}};
+  told.file.vertices = told.graph.vertices;
+  for (const std::array<Index, 3>& corners :
+       {std::array<Index, 3>{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}) {
+    told.file.triangles = {corners};
+    EXPECT_TRUE(says(verdict_on(told, false), "sides", "triangle 0 covers the point of a hole"))
+        << to_text(verdict_on(told, false));
+  }
+}
+
 // The area of a single ring is known from the input alone.
 TEST(PlaneLies, AboutTheInsideOfASingleRingShowInItsArea) {
   PlanarGraph arrow;

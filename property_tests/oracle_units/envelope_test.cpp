@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "oracles/base/triangle_distance.h"
 #include "oracles/shared_data.h"
 
 namespace tetproof::oracles {
@@ -113,6 +114,21 @@ TEST(Envelope, DistancesAreBoundedFromAboveAndNearlySo) {
   EXPECT_LE(back, exact + 0.03);  // half a step of the search
 }
 
+// Of a row of triangles, each near another part of the segment: the one in the middle as well.
+TEST(Envelope, ASegmentIsNearTrianglesThatCoverItTogether) {
+  const auto strip = [](double from, double to) {
+    return Corners{{{from, 0, 0}, {to, 0, 0}, {(from + to) / 2, -1, 0}}};
+  };
+  const std::vector<Corners> row = {strip(-1, 1.2), strip(1, 2), strip(1.9, 4)};
+  const Position a = {0, 0, 0}, b = {3, 0, 0};
+  EXPECT_TRUE(is_segment_near(a, b, row, 0.01));
+  for (std::size_t n = 0; n < row.size(); ++n) {
+    std::vector<Corners> others = row;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(n));
+    EXPECT_FALSE(is_segment_near(a, b, others, 0.01)) << n;
+  }
+}
+
 TEST(Envelope, AMeshWithinItPasses) {
   EXPECT_EQ(failed_first(judged(cube_mesh())), "");
   MeshFile moved = cube_mesh();
@@ -121,6 +137,7 @@ TEST(Envelope, AMeshWithinItPasses) {
   EXPECT_EQ(failed_first(report), "");
   EXPECT_GE(report.deviation, 0.9 * kAllowed);
   EXPECT_LE(report.deviation, 1.01 * kAllowed);
+  EXPECT_NEAR(report.deviation_share, report.deviation / std::sqrt(3.0), 1e-12);
 }
 
 TEST(Envelope, ASurfaceInsideOutBoundsTheSameSolid) {

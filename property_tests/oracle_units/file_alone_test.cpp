@@ -399,6 +399,26 @@ TEST(FileAlone, IsRoundedWhereItIsAndNotWhereItIsLargest) {
   EXPECT_EQ(report_on_moved_cube(3.9).verdict, Verdict::broken);
 }
 
+// Whichever triangle is the last one.
+TEST(FileAlone, IsRoundedByItsSmallestFacetInAnyOrder) {
+  Polyhedron input = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0x1p20}},
+                      {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}},
+                      {},
+                      {}};
+  MeshFile mesh;
+  mesh.vertices = input.vertices;
+  mesh.vertices[0][0] = -0x1p-46;  // 64 ulp of the base, far below one of the others
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  mesh.either_orientation = true;
+  for (int turn = 0; turn < 4; ++turn) {
+    VerifyReport report;
+    EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 0}}, report), "");
+    EXPECT_NE(report.verdict, Verdict::exact) << turn;
+    EXPECT_NE(report.verdict, Verdict::rounded) << turn;
+    std::ranges::rotate(input.triangles, input.triangles.begin() + 1);
+  }
+}
+
 TEST(FileAlone, HasNodesInTheMiddleOfEachEdgeWhereThisIs) {
   MeshFile mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0x1p52, 0, 0}, {0x1p52 + 8, 0, 0}};
@@ -487,6 +507,16 @@ TEST(FileAlone, HasNoMoreVerticesThanWerePromised) {
 }
 
 // The inside of a refined mesh may be empty; a mesh may not.
+TEST(Complex, NamesVerticesAsTheFileDoes) {
+  TetComplex complex;
+  complex.tetrahedra = {{3, 4, 5, 9}};
+  complex.first_vertex = 3;
+  EXPECT_EQ(complex.vertex_name(2), "input vertex 2");
+  EXPECT_EQ(complex.vertex_name(3), "vertex 0");
+  EXPECT_EQ(complex.vertex_name(9), "vertex 6");
+  EXPECT_EQ(complex.tet_name(0), "tetrahedron 0 (0 1 2 6)");
+}
+
 TEST(Complex, OnlyAPartMayBeEmpty) {
   TetComplex complex;
   const ExactPoints none;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/base/steps.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/plane/boxes.h"
 #include "oracles/plane/faces.h"
@@ -77,6 +78,21 @@ TEST(PlaneSigns, OfASquareAndBeside) {
 
 // Where doubles tell, rationals are not asked. Here these are all zero and would answer 0, so the
 // answer comes from the doubles, and it must be right.
+// The measure of what verification costs only grows.
+TEST(PlaneSigns, CountTheirSteps) {
+  PlanePoints points = plane_points({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  const auto grows = [](const auto& decide) {
+    const std::uint64_t before = oracles::steps;
+    decide();
+    return oracles::steps > before && oracles::steps - before < 1000;
+  };
+  EXPECT_TRUE(grows([&] { points.orient(0U, 1U, 2U); }));
+  EXPECT_TRUE(grows([&] { points.in_circle(0, 1, 2, 3); }));
+  EXPECT_TRUE(grows([&] { points.encroaches(0, 1, 2); }));
+  EXPECT_TRUE(grows([&] { points.parameter(1, 0, 2); }));
+  EXPECT_TRUE(grows([&] { points.distance_to_segment(1, 0, 2); }));
+}
+
 TEST(PlaneSigns, DoublesTellWhatIsObvious) {
   std::mt19937_64 random(11);
   for (int round = 0; round < 2000; ++round) {

@@ -16,6 +16,8 @@
 #include "mesher/io/test_zlib.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/files/mesh_file.h"
+#include "oracles/files/polygon.h"
+#include "oracles/files/set_names.h"
 #include "oracles/files/surface_file.h"
 #include "oracles/files/vtu_text.h"
 #include "oracles/verdict/edge_sizes.h"
@@ -229,6 +231,47 @@ TEST(VtuText, NamesAreInArraysOfTwoIntegers) {
                   "format=\"ascii\">1234567890123456789 2</DataArray>"),
             none);
   EXPECT_EQ(names("<DataArray type=\"Float64\"" + two + "format=\"ascii\">5 2</DataArray>"), none);
+}
+
+// Two squares side by side, the second with a square hole and in it an island: the area is what is
+// left, whichever way the polygons go round.
+TEST(Polygons, OfAFacetAreCutWithoutItsHoles) {
+  std::vector<Position> vertices;
+  std::vector<std::vector<Index>> polygons;
+  const auto add = [&](double x, double y, double side, bool turned) {
+    const auto at = static_cast<Index>(vertices.size());
+    for (const auto& [u, v] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+      vertices.push_back({x + side * u, y + side * v, 5});
+    }
+    polygons.push_back({at, at + 1, at + 2, at + 3});
+    if (turned) std::reverse(polygons.back().begin(), polygons.back().end());
+  };
+  add(0, 0, 8, false);
+  add(16, 0, 8, true);
+  add(17, 1, 6, false);
+  add(18, 2, 2, true);
+  const auto triangles = cut_facet(vertices, polygons, {{17.5, 1.5, 5}});
+  ASSERT_TRUE(triangles);
+  double area = 0;
+  for (const auto& [a, b, c] : *triangles) {
+    const Position &p = vertices[a], &q = vertices[b], &r = vertices[c];
+    area += std::abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+  }
+  EXPECT_EQ(area, 64 + 64 - 36 + 4);
+  EXPECT_EQ(triangles->size(), 2U + 8U + 2U);
+  EXPECT_FALSE(cut_facet(vertices, polygons, {{12, 4, 5}}));  // around which there is none
+}
+
+// Every character of Latin-1 is one of UTF-8.
+TEST(Names, ThatAreNoUtf8WereInLatin1) {
+  for (int code = 0x80; code < 0x100; ++code) {
+    const std::string name = {'a', static_cast<char>(code)};
+    const std::string as_utf8 = {'a', static_cast<char>(0xc0 | code / 64),
+                                 static_cast<char>(0x80 | code % 64)};
+    OracleReport report{"names", "names"};
+    compare_names({{{2, 1}, name}}, {{{2, 1}, as_utf8}}, 2, {1}, report);
+    EXPECT_EQ(report.violations, 0U) << code;
+  }
 }
 
 TEST(VtuText, RefusesAMillionElements) {

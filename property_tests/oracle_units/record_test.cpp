@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -52,6 +53,43 @@ TEST(SameMesh, FacesOfTheHullAreNoBoundary) {
   for (const Face& face : {Face{0, 3, 2}, {0, 1, 3}, {0, 2, 1}}) {
     EXPECT_EQ(violations({{1, 2, 3}, face}), 1U);
   }
+}
+
+// A double pyramid in the record as three tetrahedra around its axis, in the file as two; another
+// one beside it.
+TEST(SameMesh, OnlyARepairOfItsOwnExcusesAChange) {
+  delmesher::ExactRecord record;
+  MeshFile mesh;
+  std::vector<Position> places;
+  const auto add = [&](double x, bool spoilt) {
+    const auto at = static_cast<Index>(places.size());
+    for (const Position& p : {Position{2, 0, 0}, {-1, 2, 0}, {-1, -2, 0}, {0, 0, 1}, {0, 0, -1}}) {
+      places.push_back({p[0] + x, p[1], p[2]});
+      mesh.vertices.push_back(places.back());
+    }
+    // As written the axis meets an edge of the base, so one of the three is flat.
+    if (spoilt) mesh.vertices.back() = {1 + x, 2, -1};
+    for (Index i = 0; i < 3; ++i) {
+      record.refined.push_back({{at + i, at + (i + 1) % 3, at + 4, at + 3}, true});
+    }
+    mesh.tetrahedra.push_back({at, at + 1, at + 2, at + 3});
+    mesh.tetrahedra.push_back({at, at + 2, at + 1, at + 4});
+  };
+  const auto violations = [&] {
+    record.points = explicit_points(places);
+    record.mesh_vertices.resize(places.size());
+    std::iota(record.mesh_vertices.begin(), record.mesh_vertices.end(), 0U);
+    mesh.regions.assign(mesh.tetrahedra.size(), 1);
+    Promise promise;
+    promise.approximate = true;
+    return check_same_mesh(mesh, record, promise, {}).violations;
+  };
+  add(0, true);
+  EXPECT_EQ(violations(), 0U);
+  add(10, true);
+  EXPECT_EQ(violations(), 0U);
+  add(20, false);
+  EXPECT_EQ(violations(), 5U);
 }
 
 // Formats without a region 0 have 2 for the outside; no other number is one, nor are both at once.
