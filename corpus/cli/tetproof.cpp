@@ -93,7 +93,9 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
                                         ".csv of an earlier page may be among the results");
   app->add_option("--commit", a.commit, "With --league: of which our own programs are")
       ->needs(league);
-  app->add_option("--drop", a.left_out, "With --league: a mesher to leave off the page; its runs stay beside it")->needs(league);
+  app->add_option("--drop", a.left_out,
+                  "With --league: a mesher to leave off the page; its runs stay beside it")
+      ->needs(league);
   app->add_option("--base", a.base, "Results to compare with: meshers NAME@base")
       ->check(CLI::ExistingFile);
   app->add_option("--model", a.model, "Model of Table 3 and Figure 13, by name");

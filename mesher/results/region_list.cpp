@@ -201,8 +201,9 @@ class Lister {
           norm(cross(subtract(points_.nearest(b), from), subtract(points_.nearest(c), from))) / 2;
     }
     for (const auto& [pair, wall] : walls) {
-      const auto number = [&](int k) { return static_cast<std::int32_t>(pair[k]); };
-      list_.report.walls.push_back({{number(0), number(1)}, wall.first.size(), wall.second});
+      const auto first = static_cast<std::int32_t>(pair[0]),
+                 second = static_cast<std::int32_t>(pair[1]);
+      list_.report.walls.push_back({{first, second}, wall.first.size(), wall.second});
     }
   }
 

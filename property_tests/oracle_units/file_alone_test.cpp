@@ -415,7 +415,7 @@ TEST(FileAlone, IsRoundedByItsSmallestFacetInAnyOrder) {
     EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 0}}, report), "");
     EXPECT_NE(report.verdict, Verdict::exact) << turn;
     EXPECT_NE(report.verdict, Verdict::rounded) << turn;
-    std::ranges::rotate(input.triangles, input.triangles.begin() + 1);
+    std::rotate(input.triangles.begin(), input.triangles.begin() + 1, input.triangles.end());
   }
 }
 
