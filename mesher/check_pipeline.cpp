@@ -26,8 +26,8 @@ namespace {
 // As in the other drivers: policies see the shared folders.
 using namespace policies;  // NOLINT(google-build-using-namespace)
 
-// Several bodies, or something that is no solid: but nothing that no complex has, nor an open
-// surface alone.
+// Bodies of several labels, or something that is no solid: but nothing that no complex has, nor an
+// open surface alone. That several bodies of one label are apart costs too much to find out.
 bool may_have_regions(const Surface& surface, const SurfaceReport& report) {
   using Kind = Defect::Kind;
   constexpr Kind kOfNoComplex[] = {Kind::non_finite, Kind::index_out_of_range, Kind::empty,
@@ -38,8 +38,8 @@ bool may_have_regions(const Surface& surface, const SurfaceReport& report) {
   if (std::ranges::any_of(kOfNoComplex, [&](Kind kind) { return count(kind) > 0; })) return false;
   const bool several =
       std::ranges::adjacent_find(surface.labels, std::not_equal_to()) != surface.labels.end();
-  return report.components > 1 || count(Kind::non_manifold_edge) > 0 ||
-         count(Kind::non_manifold_vertex) > 0 || (several && count(Kind::open_edge) > 0);
+  return count(Kind::non_manifold_edge) > 0 || count(Kind::non_manifold_vertex) > 0 ||
+         (several && (report.components > 1 || count(Kind::open_edge) > 0));
 }
 
 // By the constrained tetrahedrization.

@@ -400,6 +400,41 @@ TEST(SomeRegions, TheLargestIsMeasuredWithoutCavities) {
   EXPECT_EQ(verified(builder.surface(), other, around).verdict, oracles::Verdict::exact);
 }
 
+// Of two cubes that are equal but for roundings either may be meant; of others the larger one.
+TEST(SomeRegions, TheLargestIsOneOfThoseThatAreEqual) {
+  for (const double side : {0.1, 0.1001}) {
+    Builder builder;
+    builder.box({0, 0, 0}, {0.1, 0.1, 0.1}, 1);
+    builder.box({0.2, 0.2, 0.2}, {0.2 + side, 0.2 + side, 0.2 + side}, 2);
+    Options options = with_names();
+    options.regions = Regions::largest;
+    const Result result = delmesher::tetrahedralize(builder.surface(), options);
+    ASSERT_TRUE(result.status.ok());
+    EXPECT_EQ(verified(builder.surface(), result, options).verdict, oracles::Verdict::exact);
+    Options first = with_names();
+    first.regions = Regions::named;
+    first.region_names = {"shell"};
+    const Result other = delmesher::tetrahedralize(builder.surface(), first);
+    EXPECT_EQ(verified(builder.surface(), other, options).verdict,
+              side == 0.1 ? oracles::Verdict::exact : oracles::Verdict::broken);
+  }
+}
+
+TEST(SomeRegions, NamesOfNothingAreNotPromised) {
+  const Surface surface = solids_of(three_materials());
+  Options options = with_names();
+  options.regions = Regions::named;
+  options.region_names = {"core"};
+  const Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok());
+  Options promised = options;
+  promised.region_names.emplace_back("copper");
+  EXPECT_EQ(verified(surface, result, promised).verdict, oracles::Verdict::broken);
+  promised = options;
+  promised.region_sizes = {{"copper", 1}};
+  EXPECT_EQ(verified(surface, result, promised).verdict, oracles::Verdict::broken);
+}
+
 TEST(SomeRegions, UnknownNamesAreErrorsThatTellTheKnownOnes) {
   const Surface surface = solids_of(three_materials());
   Options options = with_names();

@@ -301,7 +301,7 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
   };
   if (bound > 0) {
     const double most = bound * (1 + 1e-9);
-    warn(options.max_edge > 0 ? "--max-edge" : "--size",
+    warn(bound == options.max_edge ? "--max-edge" : "--size",
          [most](const Vec3& a, const Vec3& b) { return norm(subtract(b, a)) > most; });
   }
   if (!sizes.empty()) {

@@ -481,6 +481,8 @@ bool set_in_regions(JobOptions& options, const Text& text, std::string_view list
         !text.bounds.allow(value) || at == 0 || (at == part.npos && own)) {
       return false;
     }
+    const auto is_there = [&](const auto& size) { return size.region == part.substr(0, at); };
+    if (at != part.npos && std::ranges::any_of(options.region_sizes, is_there)) return false;
     if (at != part.npos) {
       options.region_sizes.push_back({std::string(part.substr(0, at)), value});
     } else {

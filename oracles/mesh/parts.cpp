@@ -21,6 +21,9 @@ namespace tetproof::oracles {
 namespace {
 
 constexpr Index kNobody = kNone;
+// Volumes that differ by less than this share are equal but for roundings: either may be the
+// largest.
+constexpr double kEqualVolumes = 0x1p-22;
 
 // A triangle of the input, once, by the vertices of the mesh where these are at its corners.
 struct Triangle {
@@ -309,8 +312,9 @@ class Parts {
     ExactSum volume;
     exact::Volume6 volume6;
     for (const Tet& tet : complex_.tetrahedra) volume += volume6(points_, tet);
-    if (!(difference(volumes.at(shell), volume, 0) > 0)) return false;
-    return difference(without_cavities(shell, volumes, shells), volume, 0) > 0;
+    const double rounding = kEqualVolumes * volume.value(0);
+    if (!(difference(volumes.at(shell), volume, 0) > rounding)) return false;
+    return difference(without_cavities(shell, volumes, shells), volume, 0) > rounding;
   }
 
   // The volume of the part within a shell: shells that it surrounds, and no smaller one does, are
@@ -363,7 +367,23 @@ class Parts {
     return first;
   }
 
+  // Names that are asked for are names of labels, where these have any.
+  void check_known() {
+    if (input_.names.empty()) return;
+    const auto check = [&](const std::string& name) {
+      if (std::ranges::any_of(input_.names, [&](const auto& set) {
+            return set.first.first == 2 && set.second == name;
+          })) {
+        return;
+      }
+      result_.parts.fail("nothing is called \"" + name + "\"");
+    };
+    std::ranges::for_each(promise_.region_names, check);
+    for (const auto& [region, size] : promise_.region_sizes) check(region);
+  }
+
   void check_wanted() {
+    check_known();
     if (!asks_for_some()) return;
     const std::map<Index, Index> first = parts();
     if (promise_.largest_region && first.size() > 1) {
@@ -443,6 +463,10 @@ class Parts {
       if (!seen.insert(mesh_.regions[t]).second) continue;
       const auto named = mesh_.names.find({3, mesh_.regions[t]});
       if (named == mesh_.names.end()) continue;
+      if (!promise_.region_names.empty() && !is_asked_for(named->second)) {
+        result_.regions.fail("region " + std::to_string(mesh_.regions[t]) + " is called " +
+                             named->second + ", which is not promised");
+      }
       const auto label = labels.find(named->second);
       if (label == labels.end() || label->second.size() > 1) continue;
       std::vector<Face> surface;
