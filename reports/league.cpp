@@ -107,12 +107,12 @@ std::vector<std::string> by_success(const Selection& selection) {
   for (const std::string& mesher : selection.meshers) {
     if (run_count(selection, mesher) > 0) meshers.push_back(mesher);
   }
-  const auto share = [&](const std::string& mesher) {
-    return static_cast<double>(selection.ok_runs(mesher).size()) /
-           static_cast<double>(run_count(selection, mesher));
+  // What few runs show counts less.
+  const auto certain = [&](const std::string& mesher) {
+    return wilson_interval(selection.ok_runs(mesher).size(), run_count(selection, mesher)).low;
   };
   std::stable_sort(meshers.begin(), meshers.end(),
-                   [&](const auto& a, const auto& b) { return share(a) > share(b); });
+                   [&](const auto& a, const auto& b) { return certain(a) > certain(b); });
   return meshers;
 }
 

@@ -33,7 +33,7 @@ class Families {
   std::vector<std::pair<std::string, std::string>> patterns_;
 };
 
-// A row per mesher, the most successful first.
+// A row per mesher, by the lower end of the interval of its successes.
 Table league_table(const Selection& selection);
 
 // Meshers of a kind, each kind on the models on which all of it succeed.

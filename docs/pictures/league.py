@@ -8,6 +8,7 @@ league-time.*     how many percent of its models each mesher has meshed within s
 league-shape.*    tetrahedra beside those of `delmesher` on the same models, and the smallest dihedral angle: medians
 """
 import csv
+import math
 import os
 import statistics
 import sys
@@ -24,17 +25,22 @@ LEAST = 10  # models, for a curve
 
 
 def runs_of(path, wanted):
-    """Rows by mesher, then model; meshers with most successes first."""
+    """Rows by mesher, then model; meshers by the lower end of Wilson's interval."""
     runs = {}
     with open(path, newline="", encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
             if not wanted or row["mesher"] in wanted:
                 runs.setdefault(row["mesher"], {})[row["sha256"]] = row
-    return dict(sorted(runs.items(), key=lambda item: -share(item[1], "ok")))
+    return dict(sorted(runs.items(), key=lambda item: -certain(item[1])))
 
 
 def share(rows, end):
     return 100 * sum(row["disposition"] == end for row in rows.values()) / len(rows)
+
+
+def certain(rows):
+    n, ok, z = len(rows), share(rows, "ok") / 100, 1.96
+    return (ok + z * z / (2 * n) - z * math.sqrt(ok * (1 - ok) / n + z * z / (4 * n * n))) / (1 + z * z / n)
 
 
 def is_ours(mesher):
