@@ -5,7 +5,7 @@ Usage: docs/pictures/league.py LEAGUE.csv FOLDER [MESHER...]     Needs `ci/insta
 
 league-success.*  how the runs of each mesher ended, in percent
 league-time.*     how many percent of its models each mesher has meshed within so many processor seconds
-league-shape.*    tetrahedra beside those of `delmesher` on the same models, and the smallest dihedral angle: medians
+league-shape.*    tetrahedra beside those of `delmesher` on the same models, and mean gamma: medians
 """
 import csv
 import math
@@ -83,12 +83,12 @@ def draw_shape(axes, runs):
         if len(common) < LEAST:
             continue
         weight = statistics.median(float(a["tetrahedra"]) / float(b["tetrahedra"]) for a, b in common)
-        angle = statistics.median(float(a["min_dihedral"]) for a, _ in common)
-        axes.plot(weight, angle, "o", color=ENDS["ok"] if is_ours(mesher) else ENDS["crash"], markersize=8)
-        axes.annotate(mesher, (weight, angle), xytext=(6, 4), textcoords="offset points", fontsize="small")
+        gamma = statistics.median(float(a["mean_gamma"]) for a, _ in common)
+        axes.plot(weight, gamma, "o", color=ENDS["ok"] if is_ours(mesher) else ENDS["crash"], markersize=8)
+        axes.annotate(mesher, (weight, gamma), xytext=(6, 4), textcoords="offset points", fontsize="small")
     axes.set_xscale("log")
     axes.set_xlabel(f"tetrahedra, times those of {OURS}")
-    axes.set_ylabel("smallest dihedral angle, degrees")
+    axes.set_ylabel("mean gamma (1: regular)")
 
 
 def draw(drawing, runs, path, height):
