@@ -1,0 +1,279 @@
+// What `tetproof verify` says of stored meshes, and of the same with something changed, word for
+// word: figures, counts, findings, exit codes, and what it took. Other tests say why an answer is
+// right; this one notices that an answer is another one.
+//
+// After a change that is meant: TETPROOF_WRITE_VERBATIM=1 laws_test --gtest_filter='*Verbatim*',
+// and read the difference.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "oracles/base/steps.h"
+#include "oracles/verify_command.h"
+
+namespace tetproof::verbatim_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Case {
+  const char* name;
+  const char* input;
+  const char* mesh;
+  const char* promised;  // @: the folder
+  const char* more = "";
+};
+
+constexpr Case kCases[] = {
+    {"approximate", "in.off", "out.vtu", "mesh --approximate"},
+    {"cdt", "in.off", "out.msh", "cdt"},
+    {"cdt_hull", "in.off", "out.tet", "cdt --region hull"},
+    {"chamfered", "in.off", "out.mesh", "mesh --surface split"},
+    {"dropped", "in.off", "out.mesh",
+     "mesh --surface split --gabriel --improve off --tau 0.001953125"},
+    {"edges", "in.off", "out.mesh", "mesh --max-edge 0.9 --surface split"},
+    {"envelope", "in.off", "out.tet", "mesh", "--envelope=0.01"},
+    {"far", "in.off", "out.mesh", "mesh --surface split"},
+    {"finer", "in.vtu", "out.mesh", "improve --max-edge 1"},
+    {"huge", "in.off", "out.mesh", "mesh --surface split"},
+    {"hull", "in.off", "out.node", "mesh --region hull --gabriel --surface split"},
+    {"improved", "in.mesh", "out.vtu", "improve"},
+    {"kept", "in.off", "out.vtu", "mesh --surface keep"},
+    {"labels", "in.obj", "out.msh", "mesh"},
+    {"named", "in.obj", "out.vtu", "mesh --regions all"},
+    {"largest", "in.off", "out.tet", "mesh --regions largest"},
+    {"order", "in.off", "out.msh", "mesh --order 2"},
+    {"paper", "in.off", "out.mesh", "mesh --preset paper --improve off --tau 0.01"},
+    {"planar", "in.off", "out.mesh", "mesh"},
+    {"plane", "in.poly", "out.node", "plane"},
+    {"plane_far", "in.obj", "out.off", "plane --acute 80"},
+    {"plane_approximate", "in.poly", "out.vtu", "plane --approximate --max-edge 1"},
+    {"plane_paper", "in.poly", "out.msh", "plane --preset paper --tau 0.05"},
+    {"poly", "in.poly", "out.node", "mesh --improve off"},
+    {"prism", "in.ply", "out.tet", "mesh --surface split --max-edge 0.4"},
+    {"regions", "in.off", "out.msh", "mesh --regions all"},
+    {"sizes", "in.off", "out.mesh", "mesh --surface split --size-field @sizes.txt"},
+    {"slivers", "in.off", "out.vtu", "mesh --surface split --delta 20 --acute 70 --improve off"},
+    {"solids", "in.stl", "out.mesh", "mesh --surface keep"},
+    {"star", "in.off", "out.msh", "mesh --planar 0.01"},
+    {"tolerance", "in.off", "out.mesh", "mesh --tolerance 5e-2d"},
+    {"ulps", "in.off", "out.mesh", "mesh --surface split --improve off"},
+};
+
+void PrintTo(const Case& one, std::ostream* stream) {
+  *stream << one.name;
+}
+
+// Files by name: "=== NAME" before each.
+std::map<std::string, std::string> files_of(const std::string& path) {
+  std::string text;
+  const gzFile file = gzopen(path.c_str(), "rb");
+  char block[4096];
+  for (int n = 0; file != nullptr && (n = gzread(file, block, sizeof block)) > 0;) {
+    text.append(block, static_cast<std::size_t>(n));
+  }
+  gzclose(file);
+  std::map<std::string, std::string> files;
+  std::istringstream lines(text);
+  std::string name;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("=== ")) {
+      name = line.substr(4);
+    } else {
+      files[name] += line + "\n";
+    }
+  }
+  return files;
+}
+
+std::string replaced(std::string in, const std::string& what, const std::string& by) {
+  for (std::size_t at = in.find(what); at != std::string::npos; at = in.find(what, at)) {
+    in.replace(at, what.size(), by);
+  }
+  return in;
+}
+
+// Numbers of more than six digits, with six: the last ones are those of a machine's mathematics.
+std::string shortened(const std::string& text) {
+  static const std::regex digits("-?[0-9]+\\.[0-9]{5,}(e[-+]?[0-9]+)?");
+  std::string result;
+  auto end = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), digits), none; at != none; ++at) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.6g", std::strtod(at->str().c_str(), nullptr));
+    result.append(end, text.begin() + at->position()).append(number);
+    end = text.begin() + at->position() + at->length();
+  }
+  return result.append(end, text.end());
+}
+
+class Verbatim : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::path(TETPROOF_SCRATCH) / ("verbatim_" + replaced(test, "/", "_"));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    files_ = files_of(VERBATIM_FOLDER + std::string("/") + GetParam().name + ".gz");
+    for (const auto& [name, text] : files_) write(name, text);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+
+  // The exit code and all that is said.
+  std::string verify(bool record, const std::string& more = "") const {
+    std::vector<std::string> arguments = {"verify", path(GetParam().input), path(GetParam().mesh),
+                                          "--promised",
+                                          replaced(GetParam().promised, "@", path(""))};
+    if (record) arguments.insert(arguments.end(), {"--exact", path("out.exact")});
+    for (const std::string& argument : {std::string(GetParam().more), more}) {
+      if (!argument.empty()) arguments.push_back(argument);
+    }
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int code = run_verify(static_cast<int>(argv.size()), argv.data());
+    const std::string said = testing::internal::GetCapturedStdout();
+    return "exit code " + std::to_string(code) + "\n" +
+           shortened(replaced(said + testing::internal::GetCapturedStderr(), path(""), ""));
+  }
+
+  static void compare(const std::string& name, const std::string& text) {
+    const std::string stored = VERBATIM_FOLDER + std::string("/") + GetParam().name + name;
+    if (std::getenv("TETPROOF_WRITE_VERBATIM") != nullptr) {
+      std::ofstream(stored, std::ios::binary) << text;
+      return;
+    }
+    std::ifstream file(stored, std::ios::binary);
+    std::istringstream now(text);
+    std::string before;  // the last lines that agree
+    for (int number = 1;; ++number) {
+      std::string expected, line;
+      const bool more = !!std::getline(file, expected);
+      if (!std::getline(now, line) && !more) return;
+      ASSERT_EQ(line, expected) << stored << ":" << number << ", after\n" << before;
+      before = line.starts_with("===") ? line + "\n" : before + line + "\n";
+    }
+  }
+
+  fs::path folder_;
+  std::map<std::string, std::string> files_;
+};
+
+// With the record and without, of each stage, and what it took.
+TEST_P(Verbatim, Reports) {
+  std::string text;
+  const bool record = files_.contains("out.exact");
+  const auto add = [&](const std::string& what, bool with_record, const std::string& more) {
+    const std::uint64_t before = oracles::steps;
+    text += "=== " + what + "\n" + verify(with_record, more);
+    text += "steps " + std::to_string(oracles::steps - before) + "\n";
+  };
+  add("the file", false, "");
+  add("the file, JSON", false, "--json");
+  if (record) {
+    add("with its record", true, "");
+    add("the refined mesh", true, "--stage=refined");
+    add("the final mesh", true, "--stage=final");
+  }
+  compare(".txt", text);
+}
+
+std::string changed(const std::string& text, std::mt19937& random, std::string& what) {
+  std::vector<std::pair<std::size_t, std::size_t>> words;
+  for (std::size_t at = text.find_first_not_of(" \n"); at != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+    words.emplace_back(at, end - at);
+    at = text.find_first_not_of(" \n", end);
+  }
+  const std::size_t chosen = random() % words.size();
+  const auto [at, size] = words[chosen];
+  std::string word = text.substr(at, size);
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  const bool is_number = *end == '\0', is_integer = word.find_first_of(".en") == std::string::npos;
+  const auto line_of = [&] {
+    const std::size_t begin = text.rfind('\n', at) + 1;
+    return std::pair(begin, std::min(text.find('\n', at) + 1, text.size()) - begin);
+  };
+  std::string result = text;
+  const std::size_t way = random() % 7;
+  what = "word " + std::to_string(chosen) + " " + word + ": ";
+  if (way <= 2 && is_number) {
+    char other[40];
+    const double by = is_integer ? (way == 0   ? 1
+                                    : way == 1 ? -1
+                                               : 7)
+                                 : value * (static_cast<double>(way) - 0.96875);
+    std::snprintf(other, sizeof other, is_integer ? "%.0f" : "%.17g", value + by);
+    what += other;
+    return result.replace(at, size, other);
+  }
+  if (way <= 3 && chosen + 1 < words.size()) {
+    const auto [next, length] = words[chosen + 1];
+    const std::string other = text.substr(next, length);
+    what += "exchanged with the next";
+    return result.replace(next, length, word).replace(at, size, other);
+  }
+  const auto [begin, length] = line_of();
+  if (way == 4) {
+    what += "its line twice";
+    return result.insert(begin, text.substr(begin, length));
+  }
+  if (way == 5) {
+    what += "without its line";
+    return result.erase(begin, length);
+  }
+  what += "negative";
+  return word.starts_with("-") ? result.erase(at, 1) : result.insert(at, "-");
+}
+
+// Only what it says otherwise than of the honest mesh.
+TEST_P(Verbatim, ReportsOfWhatWasChanged) {
+  const bool record = files_.contains("out.exact");
+  std::set<std::string> honest;
+  std::istringstream lines(verify(record));
+  for (std::string line; std::getline(lines, line);) honest.insert(line);
+  std::string text;
+  for (const auto& [name, bytes] : files_) {
+    std::mt19937 random(1);
+    const int times = name.ends_with(".exact") ? 60 : name.starts_with("out.") ? 40 : 20;
+    for (int i = 0; i < times; ++i) {
+      std::string what;
+      write(name, changed(bytes, random, what));
+      text += "=== " + name + ": " + what + "\n";
+      std::istringstream said(verify(record));
+      int shown = 0;
+      for (std::string line; std::getline(said, line);) {
+        if (!honest.contains(line) && ++shown <= 8) text += line + "\n";
+      }
+      write(name, bytes);
+    }
+  }
+  compare(".changed.txt", text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stored, Verbatim, testing::ValuesIn(kCases),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace tetproof::verbatim_test
