@@ -211,10 +211,6 @@ std::string changed(const std::string& text, std::mt19937& random, std::string& 
   char* end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
   const bool is_number = *end == '\0', is_integer = word.find_first_of(".en") == std::string::npos;
-  const auto line_of = [&] {
-    const std::size_t begin = text.rfind('\n', at) + 1;
-    return std::pair(begin, std::min(text.find('\n', at) + 1, text.size()) - begin);
-  };
   std::string result = text;
   const std::size_t way = random() % 7;
   what = "word " + std::to_string(chosen) + " " + word + ": ";
@@ -234,7 +230,8 @@ std::string changed(const std::string& text, std::mt19937& random, std::string& 
     what += "exchanged with the next";
     return result.replace(next, length, word).replace(at, size, other);
   }
-  const auto [begin, length] = line_of();
+  const std::size_t begin = text.rfind('\n', at) + 1;
+  const std::size_t length = text.find('\n', at) + 1 - begin;  // every line has an end
   if (way == 4) {
     what += "its line twice";
     return result.insert(begin, text.substr(begin, length));
