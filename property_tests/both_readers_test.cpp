@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -131,7 +132,9 @@ std::vector<Seed> seeds() {
   add("twins", What::surface, ".off");
   for (const std::string name : {"obj", "obj_lines", "off", "poly", "rings"}) {
     const std::string extension = name.starts_with("obj") ? "obj" : name == "rings" ? "txt" : name;
-    all.push_back({What::plane, name + "." + extension, bytes_of(folder / "plane" / name)});
+    std::string bytes = bytes_of(folder / "plane" / name);
+    if (std::isdigit(static_cast<unsigned char>(bytes[0])) != 0) bytes.erase(0, 1);  // the format
+    all.push_back({What::plane, name + "." + extension, bytes});
   }
   for (const char* format : {"mesh", "msh", "vtu", "tet"}) {
     add(fs::path("mesh_files") / format, What::mesh, std::string(".") + format);

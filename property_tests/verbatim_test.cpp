@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,13 +17,20 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <ranges>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "oracles/base/steps.h"
+#include "oracles/base/text_reader.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/files/surface_file.h"
+#include "oracles/plane/file.h"
 #include "oracles/verify_command.h"
 
 namespace tetproof::verbatim_test {
@@ -121,6 +129,25 @@ std::string shortened(const std::string& text) {
   return result.append(end, text.end());
 }
 
+// The stored text of that name is this one.
+void compare(const std::string& name, const std::string& text) {
+  const std::string stored = VERBATIM_FOLDER + std::string("/") + name + ".txt";
+  if (std::getenv("TETPROOF_WRITE_VERBATIM") != nullptr) {
+    std::ofstream(stored, std::ios::binary) << text;
+    return;
+  }
+  std::ifstream file(stored, std::ios::binary);
+  std::istringstream now(text);
+  std::string before;  // the last lines that agree
+  for (int number = 1;; ++number) {
+    std::string expected, line;
+    const bool more = !!std::getline(file, expected);
+    if (!std::getline(now, line) && !more) return;
+    ASSERT_EQ(line, expected) << stored << ":" << number << ", after\n" << before;
+    before = line.starts_with("===") ? line + "\n" : before + line + "\n";
+  }
+}
+
 class Verbatim : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
@@ -157,24 +184,6 @@ class Verbatim : public testing::TestWithParam<Case> {
            shortened(replaced(said + testing::internal::GetCapturedStderr(), path(""), ""));
   }
 
-  static void compare(const std::string& name, const std::string& text) {
-    const std::string stored = VERBATIM_FOLDER + std::string("/") + GetParam().name + name;
-    if (std::getenv("TETPROOF_WRITE_VERBATIM") != nullptr) {
-      std::ofstream(stored, std::ios::binary) << text;
-      return;
-    }
-    std::ifstream file(stored, std::ios::binary);
-    std::istringstream now(text);
-    std::string before;  // the last lines that agree
-    for (int number = 1;; ++number) {
-      std::string expected, line;
-      const bool more = !!std::getline(file, expected);
-      if (!std::getline(now, line) && !more) return;
-      ASSERT_EQ(line, expected) << stored << ":" << number << ", after\n" << before;
-      before = line.starts_with("===") ? line + "\n" : before + line + "\n";
-    }
-  }
-
   fs::path folder_;
   std::map<std::string, std::string> files_;
 };
@@ -195,7 +204,7 @@ TEST_P(Verbatim, Reports) {
     add("the refined mesh", true, "--stage=refined");
     add("the final mesh", true, "--stage=final");
   }
-  compare(".txt", text);
+  compare(GetParam().name, text);
 }
 
 std::string changed(const std::string& text, std::mt19937& random, std::string& what) {
@@ -266,8 +275,156 @@ TEST_P(Verbatim, ReportsOfWhatWasChanged) {
       write(name, bytes);
     }
   }
-  compare(".changed.txt", text);
+  compare(GetParam().name + std::string(".changed"), text);
 }
+
+// ---------------------------------------------------------------------------------------- readers
+
+void show(std::string& text, const std::string& value) {
+  text += " \"" + value + "\"";
+}
+template <class T>
+requires std::is_arithmetic_v<T>
+void show(std::string& text, T value) {
+  char number[40];
+  std::snprintf(number, sizeof number, " %.17g", static_cast<double>(value));
+  text += number;
+}
+template <class A, class B>
+void show(std::string& text, const std::pair<A, B>& both) {
+  show(text, both.first);
+  show(text, both.second);
+}
+void show(std::string& text, const oracles::MeshFile::EdgeNode& node);
+void show(std::string& text, const delmesher::PlanarGraph::Region& region);
+template <std::ranges::range List>
+requires(!std::is_convertible_v<List, std::string>) void show(std::string& text, const List& list) {
+  for (const auto& value : list) show(text, value);
+  text += ";";
+}
+void show(std::string& text, const oracles::MeshFile::EdgeNode& node) {
+  show(text, node.ends);
+  show(text, node.at);
+}
+void show(std::string& text, const delmesher::PlanarGraph::Region& region) {
+  show(text, region.point);
+  show(text, region.attribute);
+}
+template <class... Values>
+std::string shown(const Values&... values) {
+  std::string text;
+  (show(text, values), ...);
+  return text;
+}
+
+enum class What { surface, plane, mesh };
+
+// All that is in a file, or why it is refused.
+std::string read(What what, const std::string& path) {
+  try {
+    if (what == What::surface) {
+      const oracles::Polyhedron s = oracles::read_surface(path);
+      return shown(s.vertices, s.triangles, s.labels, s.polygons, s.names_read, s.names);
+    }
+    if (what == What::plane) {
+      const delmesher::PlanarGraph g = oracles::read_plane_graph(path);
+      return shown(g.vertices, g.segments, g.markers, g.partitions, g.holes, g.regions);
+    }
+    const oracles::MeshFile m = oracles::read_mesh(path);
+    return shown(m.vertices, m.tetrahedra, m.names_sides, m.regions, m.inside, m.all_called_inside,
+                 m.boundary, m.labels, m.facets, m.planar_within, m.has_names, m.names,
+                 m.labels_contradict, m.boxes_differ, m.groups_differ, m.tags_shared,
+                 m.sides_contradict, m.more_than_single, m.comments_within, m.edge_nodes,
+                 m.lists_boundary, m.has_second_order, m.either_orientation);
+  } catch (const oracles::ReadError& error) {
+    return error.what();
+  }
+}
+
+// Any bytes: one of them another, or gone, or a few of them twice.
+std::string with_other_bytes(const std::string& bytes, std::mt19937& random, std::string& what) {
+  const std::size_t at = random() % bytes.size(), way = random() % 4;
+  const char other = way == 0 ? static_cast<char>(random() % 256) : "09-. \n\"x"[random() % 8];
+  what = "byte " + std::to_string(at);
+  std::string result = bytes;
+  if (way == 2) return what += " gone", result.erase(at, 1);
+  if (way == 3) return what += " and more twice", result.insert(at, bytes.substr(at, 9));
+  what += " is " + std::to_string(static_cast<unsigned char>(other));
+  result[at] = other;
+  return result;
+}
+
+struct Reader {
+  What what;
+  const char* seeds;  // a file, or a folder of files
+  const char* extension;
+};
+
+void PrintTo(const Reader& reader, std::ostream* stream) {
+  *stream << reader.seeds;
+}
+
+class VerbatimReaders : public testing::TestWithParam<Reader> {};
+
+// What was changed is told by its length and a sum, since there is much of it; errors are whole.
+TEST_P(VerbatimReaders, ReadTheSame) {
+  const std::string seeds = GetParam().seeds, extension = GetParam().extension;
+  std::vector<fs::path> files;
+  const fs::path from = fs::path(TETPROOF_SEEDS) / seeds;
+  if (fs::is_directory(from)) {
+    for (const auto& entry : fs::directory_iterator(from)) files.push_back(entry.path());
+  } else {
+    files = {from};
+  }
+  std::sort(files.begin(), files.end());
+  const std::string name = replaced(seeds, "/", "_") + "_" + extension;
+  const fs::path folder = fs::path(TETPROOF_SCRATCH) / ("verbatim_" + name);
+  fs::create_directories(folder);
+  const std::string path = (folder / "in.").string() + extension;
+  std::string text;
+  for (const fs::path& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    // A fuzz target is told the format.
+    if (GetParam().what == What::plane && std::isdigit(in.peek()) != 0) in.get();
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const auto said = [&](const std::string& written) {
+      std::ofstream(path, std::ios::binary) << written;
+      return replaced(read(GetParam().what, path), path, "");
+    };
+    const std::string honest = said(bytes);
+    text += "=== " + file.filename().string() + "\n" + honest + "\n";
+    std::mt19937 random(1);
+    for (int i = 0; i < 200; ++i) {
+      std::string change, now;
+      const bool words = i % 2 == 0 && bytes.ends_with("\n");
+      now = said(words ? changed(bytes, random, change) : with_other_bytes(bytes, random, change));
+      if (now == honest) continue;
+      if (!now.starts_with(":")) {  // no error
+        std::uint64_t sum = 0;
+        for (const char c : now) sum = 31 * sum + static_cast<unsigned char>(c);
+        now = std::to_string(now.size()) + " characters, " + std::to_string(sum);
+      }
+      text += change + ": " + now + "\n";
+    }
+  }
+  fs::remove_all(folder);
+  compare("read." + name, text);
+}
+
+constexpr Reader kReaders[] = {
+    {What::surface, "3mf", "3mf"},           {What::surface, "off", "off"},
+    {What::surface, "obj", "obj"},           {What::surface, "ply", "ply"},
+    {What::surface, "poly", "poly"},         {What::surface, "smesh", "smesh"},
+    {What::surface, "stl", "stl"},           {What::mesh, "mesh_files/mesh", "mesh"},
+    {What::mesh, "mesh_files/msh", "msh"},   {What::mesh, "mesh_files/tet", "tet"},
+    {What::mesh, "mesh_files/vtu", "vtu"},   {What::plane, "plane/obj", "obj"},
+    {What::plane, "plane/obj_lines", "obj"}, {What::plane, "plane/off", "off"},
+    {What::plane, "plane/poly", "poly"},     {What::plane, "plane/rings", "txt"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Stored, VerbatimReaders, testing::ValuesIn(kReaders), [](const auto& one) {
+  return replaced(one.param.seeds, "/", "_") + "_" + one.param.extension;
+});
 
 INSTANTIATE_TEST_SUITE_P(Stored, Verbatim, testing::ValuesIn(kCases),
                          [](const auto& one) { return std::string(one.param.name); });
