@@ -167,9 +167,10 @@ class Verbatim : public testing::TestWithParam<Case> {
 
   // The exit code and all that is said.
   std::string verify(bool record, const std::string& more = "") const {
-    std::vector<std::string> arguments = {"verify", path(GetParam().input), path(GetParam().mesh),
-                                          "--promised",
-                                          replaced(GetParam().promised, "@", path(""))};
+    std::vector<std::string> arguments = {"verify", path(GetParam().input), path(GetParam().mesh)};
+    if (!more.starts_with("--promised")) {
+      arguments.push_back("--promised=" + replaced(GetParam().promised, "@", path("")));
+    }
     if (record) arguments.insert(arguments.end(), {"--exact", path("out.exact")});
     for (const std::string& argument : {std::string(GetParam().more), more}) {
       if (!argument.empty()) arguments.push_back(argument);
@@ -425,6 +426,109 @@ constexpr Reader kReaders[] = {
 INSTANTIATE_TEST_SUITE_P(Stored, VerbatimReaders, testing::ValuesIn(kReaders), [](const auto& one) {
   return replaced(one.param.seeds, "/", "_") + "_" + one.param.extension;
 });
+
+// What else could have been promised, and what cannot.
+constexpr const char* kPromises[] = {
+    "",
+    "--acute 0",
+    "--acute 90",
+    "--acute 91",
+    "--approximate",
+    "--as-paper all",
+    "--as-paper bridges,kept-points",
+    "--as-paper enrichment",
+    "--as-paper filter-chamfered",
+    "--as-paper filter-pairs",
+    "--as-paper link",
+    "--as-paper no-guard",
+    "--as-paper order",
+    "--as-paper steiner-point",
+    "--budget 10",
+    "--budget 100000",
+    "--chamfer-radius 0.01",
+    "--corner 89",
+    "--delta 14.4775",
+    "--delta 14.48",
+    "--delta 2",
+    "--delta 30",
+    "--delta 31",
+    "--feature 20",
+    "--gabriel",
+    "--gabriel=3",
+    "--improve off",
+    "--label-by-angle 30",
+    "--max-edge 0.2",
+    "--max-edge 100",
+    "--max-edge -1",
+    "--max-vertices 5",
+    "--max-vertices 100000",
+    "--order 2",
+    "--planar 0",
+    "--planar 0.005",
+    "--planar 1e-9",
+    "--preset paper",
+    "--preset paper --acute 60",
+    "--region hull",
+    "--regions all",
+    "--regions core",
+    "--regions core --max-edge 2,core=0.5",
+    "--regions largest",
+    "--simplify-bridges off",
+    "--size-field nothing.txt",
+    "--slivers off",
+    "--strict",
+    "--surface auto",
+    "--surface keep",
+    "--surface keep --strict",
+    "--surface none",
+    "--surface split",
+    "--tau 0",
+    "--tau 0.5",
+    "--tau 2",
+    "--tolerance 1e-1d",
+    "--tolerance 1e-3d --feature 20",
+    "--tolerance 1e-3d --surface keep",
+    "--delta 2 --delta 3",
+    "--nothing",
+};
+
+class VerbatimPromises : public Verbatim {};
+
+TEST_P(VerbatimPromises, Report) {
+  const std::string promised = GetParam().promised;
+  const std::string task = promised.substr(0, promised.find(' '));
+  std::string text;
+  for (const bool record : {false, true}) {
+    if (record && !files_.contains("out.exact")) continue;
+    std::set<std::string> honest;
+    std::istringstream lines(verify(record));
+    for (std::string line; std::getline(lines, line);) honest.insert(line);
+    for (const char* other : kPromises) {
+      text += std::string("=== ") + (record ? "record, " : "") + other + "\n";
+      std::istringstream said(verify(record, std::string("--promised=") + task + " " + other));
+      int shown = 0;
+      for (std::string line; std::getline(said, line);) {
+        if (!honest.contains(line) && ++shown <= 5) text += line + "\n";
+      }
+    }
+  }
+  compare(GetParam().name + std::string(".promises"), text);
+}
+
+// Of different kinds, and quick.
+std::vector<Case> few_cases() {
+  const std::set<std::string> names = {"approximate", "cdt",   "chamfered", "edges", "finer",
+                                       "improved",    "kept",  "labels",    "named", "order",
+                                       "planar",      "plane", "regions",   "solids"};
+  std::vector<Case> few;
+  for (const Case& one : kCases) {
+    if (names.contains(one.name)) few.push_back(one);
+  }
+  return few;
+}
+
+INSTANTIATE_TEST_SUITE_P(Stored, VerbatimPromises, testing::ValuesIn(few_cases()),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Stored, Verbatim, testing::ValuesIn(kCases),
                          [](const auto& one) { return std::string(one.param.name); });
