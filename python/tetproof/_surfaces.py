@@ -1,0 +1,155 @@
+"""Surfaces, and arrays as the module `_core` takes them."""
+import dataclasses
+import os
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+else:
+    Array = np.ndarray
+
+
+def _line(name: str, *counts: Tuple[int, str], more: str = "") -> str:
+    return "%s(%s)" % (name, ", ".join(["%d %s" % pair for pair in counts] + ([more] if more else [])))
+
+
+def _indices(values: Any, name: str) -> Array:
+    array = np.asarray(values)
+    if array.size and not np.issubdtype(array.dtype, np.integer):
+        raise TypeError("%s must be whole numbers, not %s" % (name, array.dtype))
+    if array.size and (array.min() < 0 or array.max() > 0xffffffff):
+        raise ValueError("%s: numbers of points are from 0 to 2^32 - 1" % name)
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def _points(values: Any) -> Array:
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+def _labels(values: Any, name: str = "labels") -> Optional[Array]:
+    if values is None:
+        return None
+    array = np.asarray(values)
+    if array.size and not np.issubdtype(array.dtype, np.integer):
+        if not np.issubdtype(array.dtype, np.floating) or not (array == np.round(array)).all():
+            raise TypeError("%s must be whole numbers, not %s" % (name, array.dtype))
+    if array.size and (array.min() < -0x80000000 or array.max() > 0x7fffffff):
+        raise ValueError("%s are from -2^31 to 2^31 - 1" % name)
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def _signed(value: Any) -> Any:
+    """Numbers of things, of which differences do not wrap around."""
+    if not isinstance(value, np.ndarray) or value.dtype != np.uint32:
+        return value
+    return value.view(np.int32) if value.size == 0 or value.max() < 1 << 31 else value.astype(np.int64)
+
+
+class Defect(NamedTuple):
+    """What is wrong at one place of a surface: its kind, a line that names it, and the numbers of the vertices and triangles."""
+    kind: str
+    message: str
+    vertices: Array
+    triangles: Array
+
+
+class Face(NamedTuple):
+    """The triangles of one label of a surface: how many, their area, and the two corners of their bounding box. The shape is "planar"
+    (then `direction` is the normal, outwards), "cylindrical" (then it is that of the axis) or "other" (then it is zero), within a
+    thousandth of the box."""
+    label: int
+    name: str
+    triangles: int
+    area: float
+    shape: str
+    direction: Array
+    lower: Array
+    upper: Array
+
+
+@dataclasses.dataclass(eq=False, repr=False)  # arrays have no one truth to compare by
+class Surface:
+    """A triangulated surface.
+
+    Attributes
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+        Counter-clockwise seen from outside.
+    labels : (m,) int32
+    names : dict of int to str
+        What labels are called, where a file says so.
+    """
+    points: Array
+    triangles: Array
+    labels: Array
+    names: Dict[int, str] = dataclasses.field(default_factory=dict)
+    warnings: List[str] = dataclasses.field(default_factory=list)
+
+    def __repr__(self) -> str:
+        return _line(type(self).__name__, (len(self.points), "points"), (len(self.triangles), "triangles"),
+                     (len(np.unique(self.labels)), "labels"))
+
+    def faces(self) -> List[Face]:
+        """What the triangles of each label are, by label."""
+        rows = _core.labelled_faces(*_surface(self, None, None))
+        return [Face(label, self.names.get(label, "label %d" % label), count, area, shape, *map(np.array, vectors))
+                for label, count, area, shape, *vectors in rows]
+
+    def write(self, path: "Union[str, os.PathLike[str]]") -> None:
+        """Write an .stl, .ply or .off, see `write`."""
+        from ._jobs import write  # which takes these classes
+
+        write(path, self)
+
+    def to_meshio(self) -> Any:
+        """A `meshio.Mesh` of the triangles, with cell data ``label``."""
+        import meshio
+
+        return meshio.Mesh(self.points, [("triangle", self.triangles.astype(np.int64))], cell_data={"label": [self.labels]})
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` with the same points and triangles."""
+        import trimesh
+
+        return trimesh.Trimesh(self.points, self.triangles, process=False)
+
+    def to_pyvista(self) -> Any:
+        """A `pyvista.PolyData`, with cell data ``label``."""
+        import pyvista
+
+        faces = np.hstack([np.full((len(self.triangles), 1), 3), self.triangles]).ravel()
+        data = pyvista.PolyData(self.points, faces)
+        data.cell_data["label"] = self.labels
+        return data
+
+
+@dataclasses.dataclass(eq=False, repr=False)
+class Repaired(Surface):
+    """A mended surface; `done` says what was done to it, a line each."""
+    done: List[str] = dataclasses.field(default_factory=list)
+
+
+def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Optional[Array]]:
+    """Arrays, or an object that has them: of tetproof, trimesh (vertices, faces), meshio (points, cells_dict) or pyvista."""
+    if triangles is None:
+        given = points
+        if hasattr(given, "vertices") and hasattr(given, "faces"):
+            points, triangles = given.vertices, given.faces
+        elif hasattr(given, "cells_dict") and "triangle" in given.cells_dict:
+            points, triangles = given.points, given.cells_dict["triangle"]
+        elif hasattr(given, "points") and hasattr(given, "triangles"):
+            points, triangles = given.points, given.triangles
+            labels = labels if labels is not None else getattr(given, "labels", None)
+        elif hasattr(given, "faces") and hasattr(given, "points"):
+            points, triangles = given.points, np.reshape(given.faces, (-1, 4))[:, 1:]
+        else:
+            raise TypeError("points and triangles are expected, or an object that has them, not %s; `read` makes one of a file"
+                            % type(given).__name__)
+    return _points(points), _indices(triangles, "triangles"), _labels(labels)
