@@ -14,6 +14,7 @@
 #include "mesher/planar/planar.h"
 #include "mesher/policies/fallback.h"
 #include "mesher/results/region_list.h"
+#include "mesher/results/region_points.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
 #include "mesher/surface/complex.h"
@@ -43,7 +44,8 @@ bool may_have_regions(const Surface& surface, const SurfaceReport& report) {
 }
 
 // By the constrained tetrahedrization.
-ComplexReport find_regions(const Surface& surface, const Options& options, Control& control) {
+ComplexReport find_regions(const Surface& surface, const Options& options, Control& control,
+                           std::vector<std::string>& warnings) {
   const MergedSurface merged = merge_repeated(surface);
   const ValidityResult validity =
       check_validity(merged.surface, true, control, kMostPlaces, Rules::complex);
@@ -56,14 +58,17 @@ ComplexReport find_regions(const Surface& surface, const Options& options, Contr
   input.partition = cdt::Partition::regions;
   cdt::CdtResult cdt =
       cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, control);
-  return list_regions(merged, s.points, cdt.mesh).report;
+  ComplexReport report = list_regions(merged, s.points, cdt.mesh).report;
+  enter_region_points(options.region_points, cdt.mesh, s.points, report.regions, warnings);
+  return report;
 }
 
 }  // namespace
 
 SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
   SurfaceReport report;
-  const auto options = options::taken_from<Options>(given);
+  auto options = options::taken_from<Options>(given);
+  options.region_points = given.region_points;
   Control control(options);
   const Status status = guarded(control, [&]() -> Status {
     if (std::string defect = options_defect(given); !defect.empty()) {
@@ -73,7 +78,7 @@ SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
     ValidityResult validity = check_validity(surface, false, control);
     report = std::move(validity.report);
     if (given.want_regions && may_have_regions(surface, report)) {
-      report.complex = find_regions(surface, options, control);
+      report.complex = find_regions(surface, options, control, report.warnings);
     }
     if (!report.status.ok()) return report.status;
     Session s(options, control);

@@ -38,6 +38,7 @@ struct ReadResult {
   std::vector<std::string> warnings;                // what the user should know
   std::vector<std::string> notes;                   // for a log
   std::vector<std::array<std::uint32_t, 2>> lines;  // ReadOptions::planar: edges of polylines
+  std::vector<RegionPoint> region_points;           // of .poly and .smesh
   bool ok() const { return code == ReadCode::ok; }
 };
 

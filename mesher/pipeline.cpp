@@ -28,6 +28,7 @@
 #include "mesher/remesh/remesh.h"
 #include "mesher/results/recorder.h"
 #include "mesher/results/region_list.h"
+#include "mesher/results/region_points.h"
 #include "mesher/results/rounding_input.h"
 #include "mesher/results/units.h"
 #include "mesher/run/options.h"
@@ -404,6 +405,11 @@ struct Keeping {
     RegionList list = list_regions(merged, s.points, mesh);
     regions = std::move(list.report.regions);
     bare += list.bare;
+    if (Status status = enter_region_points(s.options.region_points, mesh, s.points, regions,
+                                            recorder.warnings());
+        !status.ok()) {
+      return status;
+    }
     if (Status status = find_region_sizes(s.options, regions, region_edges); !status.ok()) {
       return status;
     }

@@ -57,7 +57,9 @@ std::string RegionsStep::run() {
   }
   const bool by_name =
       !options_.promised.region_names.empty() || !options_.promised.region_sizes.empty();
-  if (by_name && (!input_.names_read || options_.promised.names)) {
+  const bool tells_names = std::ranges::any_of(
+      input_.region_points, [](const RegionPoint& p) { return !p.name.empty(); });
+  if (by_name && !tells_names && (!input_.names_read || options_.promised.names)) {
     report_.unproven.emplace_back("names of regions: these are not read");
     parts.parts.undecided = parts.parts.violations > 0;
   }

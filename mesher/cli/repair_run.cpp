@@ -33,6 +33,7 @@ int RepairRunner::read() {
   io::ReadResult input = io::read_surface(command_.input, options);
   if (!input.ok()) return fail_reading(input.code, input.error);
   names_ = std::move(input.names);
+  ignore(input.region_points);
   note_input(input.format, input.surface.vertices.size(), input.surface.triangles.size(),
              "triangles");
   RepairResult mended = repair_surface(input.surface, options_);

@@ -348,8 +348,13 @@ std::string region_name(const io::LabelNames& names, std::int32_t number) {
 io::LabelNames region_names(const std::vector<MeshRegion>& regions, const io::LabelNames& labels) {
   io::LabelNames names;
   for (std::size_t n = 0; n < regions.size(); ++n) {
+    const auto number = static_cast<std::int32_t>(n + 1);
     const auto name = regions[n].label ? labels.find(*regions[n].label) : labels.end();
-    if (name != labels.end()) names.emplace(static_cast<std::int32_t>(n + 1), name->second);
+    if (!regions[n].name.empty()) {
+      names.emplace(number, regions[n].name);
+    } else if (name != labels.end()) {
+      names.emplace(number, name->second);
+    }
   }
   return io::distinct_names(names);
 }

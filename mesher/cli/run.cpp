@@ -37,6 +37,7 @@ class Runner : RunSteps {
 
   Surface surface_;
   io::LabelNames names_;
+  std::vector<RegionPoint> region_points_;
 };
 
 int Runner::read() {
@@ -47,6 +48,7 @@ int Runner::read() {
   for (const std::string& warning : input.warnings) warn(warning);
   surface_ = std::move(input.surface);
   names_ = std::move(input.names);
+  region_points_ = std::move(input.region_points);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
   const int code = label_by_angle();
@@ -70,7 +72,7 @@ int Runner::label_by_angle() {
 }
 
 int Runner::check() {
-  const SurfaceReport report = check_surface(surface_, true);
+  const SurfaceReport report = check_surface(surface_, true, region_points_);
   const StatusCode code = report.status.code;
   if (code == StatusCode::ok || code == StatusCode::invalid_surface) {
     streams_.out(command_.json ? check_json(command_.input, surface_, names_, report)
@@ -126,11 +128,13 @@ io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) 
 // A region is chosen by the name of its label.
 Options Runner::with_names(Options options) const {
   options.label_names = names_;
+  options.region_points = region_points_;
   return options;
 }
 
 int Runner::mesh() {
   const auto* options = std::get_if<Options>(&command_.options);  // else those of cdt
+  if (options == nullptr || options->regions == Regions::solid) ignore(region_points_);
   Result result = options != nullptr
                       ? call(with_names(*options),
                              [&](const Options& o) { return library_.tetrahedralize(surface_, o); })
@@ -183,6 +187,7 @@ int Runner::mesh() {
 }
 
 int Runner::remesh() {
+  ignore(region_points_);
   RemeshResult result =
       call(std::get<RemeshOptions>(command_.options),
            [&](const RemeshOptions& o) { return library_.remesh_surface(surface_, o); });

@@ -122,10 +122,20 @@ void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std
        std::to_string(cells) + " " + cell_name);
 }
 
-SurfaceReport RunSteps::check_surface(const Surface& surface, bool want_regions) const {
+void RunSteps::ignore(const std::vector<RegionPoint>& region_points) const {
+  const auto holes = std::ranges::count_if(region_points, &RegionPoint::is_hole);
+  const auto count = std::ssize(region_points) - holes;
+  if (count == 0) return;
+  warn(std::to_string(count) + " region points ignored: all that is inside is one region" +
+       (command_.job() == Job::mesh ? " (--regions all makes regions)" : ""));
+}
+
+SurfaceReport RunSteps::check_surface(const Surface& surface, bool want_regions,
+                                      const std::vector<RegionPoint>& region_points) const {
   CheckOptions check = std::visit(
       [](const auto& job) { return options::taken_from<CheckOptions>(job); }, command_.options);
   check.want_regions = want_regions;
+  check.region_points = region_points;
   return call(
       check, [&](const CheckOptions& options) { return library_.check_surface(surface, options); });
 }

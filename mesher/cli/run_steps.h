@@ -58,7 +58,10 @@ class RunSteps {
     return library_call(options);
   }
   // What check_surface() says of the surface, with those options that it shares with the job.
-  SurfaceReport check_surface(const Surface& surface, bool want_regions = false) const;
+  SurfaceReport check_surface(const Surface& surface, bool want_regions = false,
+                              const std::vector<RegionPoint>& region_points = {}) const;
+  // Warns of region points for a job that knows no regions.
+  void ignore(const std::vector<RegionPoint>& region_points) const;
 
   // From a result to the exit code: warnings, files (by `write`, whose outputs are then put in
   // place all at once), statistics (`json`, written however the run ended, because campaigns want

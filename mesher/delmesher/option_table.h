@@ -555,6 +555,10 @@ void scale_lengths(JobOptions& options, int exponent) {
   if constexpr (requires { options.region_sizes; }) {
     for (RegionSize& size : options.region_sizes)
       size.max_edge = std::ldexp(size.max_edge, exponent);
+    for (RegionPoint& p : options.region_points) {
+      for (double& x : p.point) x = std::ldexp(x, exponent);
+      p.max_edge = std::ldexp(p.max_edge, exponent);
+    }
   }
 }
 

@@ -47,6 +47,14 @@ struct RegionSize {
 // on 14 of 20 real models at a 40th of the diagonal, 98 % of them between 0.6 and 1.4).
 inline constexpr double kMostOfSize = 1.45;
 
+// A point that tells of the region around it, as in TetGen's .poly.
+struct RegionPoint {
+  std::array<double, 3> point;
+  std::string name = {};  // what the region is called; empty: as it is without
+  double max_edge = 0;    // no longer edge in it; 0: any
+  bool is_hole = false;   // it is not written
+};
+
 // Of tetrahedralize().
 struct Options : Limits {
   // The surface that is meshed may be another one: no point of either is farther from the other,
@@ -64,6 +72,9 @@ struct Options : Limits {
   std::vector<std::string> region_names;
   // What labels are called: a region has the name of the solid that it lies in.
   std::map<std::int32_t, std::string> label_names;
+  // With other Regions than solid. One that lies in no region, or on a wall between two, gives a
+  // warning.
+  std::vector<RegionPoint> region_points;
   // A vertex on a kept surface that finds no way off it ends the run with Limit::precision. It is
   // counted otherwise.
   bool strict = false;
@@ -164,11 +175,12 @@ struct PlaneOptions : TimeLimit {
 
 // Of check_surface().
 struct CheckOptions : TimeLimit {
-  double acute = 60;            // corners with an angle below this are acute
-  double corner = 20;           // the same for corners between two edges
-  double planar = kPlanarAuto;  // as in Options: the facets that are counted
-  unsigned threads = 1;         // as in Limits
-  bool want_regions = false;    // fill SurfaceReport::complex
+  double acute = 60;                       // corners with an angle below this are acute
+  double corner = 20;                      // the same for corners between two edges
+  double planar = kPlanarAuto;             // as in Options: the facets that are counted
+  unsigned threads = 1;                    // as in Limits
+  bool want_regions = false;               // fill SurfaceReport::complex
+  std::vector<RegionPoint> region_points;  // as in Options
 };
 
 // Of repair_surface().

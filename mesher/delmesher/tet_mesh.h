@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace delmesher {
@@ -35,6 +36,10 @@ struct MeshRegion {
   // Of the smallest solid that it lies in, by volume, of those that the triangles of one label
   // bound. None: it is in none.
   std::optional<std::int32_t> label = {};
+  // By the region points in it: a name of its own, the longest edge (0: any); is it a hole?
+  std::string name = {};
+  double max_edge = 0;
+  bool is_hole = false;
 };
 
 }  // namespace delmesher

@@ -59,13 +59,13 @@ class Nesting {
       const std::optional<int> depth = patches_around(hole, &emptied);
       if (depth.value_or(0) % 2 == 0) continue;
       texts.push_back("the hole point " + text(hole) +
-                      " is inside the solid: TetGen would leave that part out, here it is meshed");
+                      " is inside the solid: TetGen leaves that part out, here --regions all does");
     }
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       if (depths_[i].value_or(0) % 2 == 0 || emptied[i]) continue;
       texts.push_back("the closed surface at " + text(vertex_of(patches_[i])) +
-                      " is inside another, without a hole point: TetGen would fill it, here it is "
-                      "a cavity");
+                      " is inside another, without a hole point: TetGen fills it, here --regions "
+                      "all does");
     }
     return texts;
   }

@@ -83,6 +83,7 @@ void parse(std::string_view bytes, const std::string& path, const NodeFile& node
   read(bytes, format, node_file, options, builder);
   result.surface = builder.finish();
   result.lines = builder.lines();
+  result.region_points = builder.region_points();
   result.warnings = builder.warnings();
   result.notes = builder.notes();
   result.names = builder.names();

@@ -297,14 +297,28 @@ TEST(ReadTetgen, FacetsAreTakenFromEitherSide) {
   const ReadResult filled = read(boxes_of_facets("0\n1\n1 2 2 2 7 -1\n"), "x.poly");
   EXPECT_EQ(filled.warnings,
             (std::vector<std::string>{
-                "1 region points ignored: all that is inside is one region",
                 "the closed surface at (1, 3, 1) is inside another, without a hole point: TetGen "
-                "would fill it, here it is a cavity"}));
+                "fills it, here --regions all does"}));
   EXPECT_DOUBLE_EQ(volume(filled.surface), 64 - 8);
+  ASSERT_EQ(filled.region_points.size(), 1U);
+  EXPECT_EQ(filled.region_points[0].point, (std::array<double, 3>{2, 2, 2}));
+  EXPECT_EQ(filled.region_points[0].name, "7");
+  EXPECT_EQ(filled.region_points[0].max_edge, 0);
+  const ReadResult sized =
+      read(boxes_of_facets("1\n1 2 2 2\n2\n1 .5 .5 .5 -1.50 4.5\n2 1 1 1\n"), "x.poly");
+  ASSERT_EQ(sized.region_points.size(), 3U);
+  EXPECT_TRUE(sized.region_points[0].is_hole);
+  EXPECT_FALSE(sized.region_points[1].is_hole);
+  EXPECT_EQ(sized.region_points[1].name, "-1.5");
+  // A regular tetrahedron with this edge has the volume.
+  EXPECT_NEAR(std::pow(sized.region_points[1].max_edge, 3) / (6 * std::sqrt(2.0)), 4.5, 1e-12);
+  EXPECT_EQ(sized.region_points[2].name, "");
+  const ReadResult wrong = read(boxes_of_facets("0\n1\n1 2 2 2 7 x\n"), "x.poly");
+  EXPECT_TRUE(wrong.error.ends_with(": bad number 'x'")) << wrong.error;
   const ReadResult emptied = read(boxes_of_facets("2\n1 2 2 2\n2 0.5 0.5 0.5\n"), "x.poly");
   EXPECT_EQ(emptied.warnings,
             (std::vector<std::string>{"the hole point (0.5, 0.5, 0.5) is inside the solid: TetGen "
-                                      "would leave that part out, here it is meshed"}));
+                                      "leaves that part out, here --regions all does"}));
 }
 
 // Vertices repeated along the seams of textures are one; those of bodies that touch are not.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "mesher/geometry/projected_face.h"
@@ -29,6 +31,7 @@ class TetgenReader {
 
  private:
   Point3 need_point();
+  RegionPoint read_region();
   void read_corners(std::uint64_t count, Loop& loop);
   void read_smesh_facet();
   void read_poly_facet();
@@ -206,7 +209,23 @@ void TetgenReader::read_facets(TetgenKind kind) {
   }
 }
 
-// Regions ask for more than a surface.
+// The attribute of a region is its name. Tetrahedra with edges no longer than that of the regular
+// one of the largest volume are no larger.
+RegionPoint TetgenReader::read_region() {
+  RegionPoint region{need_point()};
+  const auto number = [this](double& x) {
+    std::string_view token;
+    if (!in_.lines().next_token(token)) return false;
+    if (parse_double(token, x) != NumberStatus::ok)
+      fail(in_.here(), "bad number " + in_quotes(token));
+    return true;
+  };
+  double attribute = 0, volume = 0;
+  if (number(attribute)) append_double(region.name, attribute);
+  if (number(volume) && volume > 0) region.max_edge = std::cbrt(volume * 6 * std::numbers::sqrt2);
+  return region;
+}
+
 void TetgenReader::read_holes_and_regions() {
   std::vector<Point3> holes;
   for (const std::string what : {"hole", "region"}) {
@@ -216,12 +235,11 @@ void TetgenReader::read_holes_and_regions() {
     for (std::uint64_t i = 0; i < count; ++i) {
       in_.need_line(what.c_str());
       in_.need_integer<std::int64_t>(what + " number");
-      const Point3 point = need_point();
-      if (what == "hole") holes.push_back(point);
-    }
-    if (count > 0 && what == "region") {
-      builder_.warn(std::to_string(count) +
-                    " region points ignored: all that is inside is one region");
+      const bool is_hole = what == "hole";
+      RegionPoint region = is_hole ? RegionPoint{need_point()} : read_region();
+      if (is_hole) holes.push_back(region.point);
+      region.is_hole = is_hole;
+      builder_.add_region_point(std::move(region));
     }
   }
   builder_.take_either_orientation(std::move(holes));

@@ -45,6 +45,9 @@ class SurfaceBuilder {
     holes_ = std::move(holes);
   }
 
+  void add_region_point(RegionPoint point) { region_points_.push_back(std::move(point)); }
+  const std::vector<RegionPoint>& region_points() const { return region_points_; }
+
   // An edge between vertices that have been added: for outlines in the plane, not of the surface.
   void add_line(const std::array<std::uint32_t, 2>& ends) { lines_.push_back(ends); }
   const std::vector<std::array<std::uint32_t, 2>>& lines() const { return lines_; }
@@ -97,6 +100,7 @@ class SurfaceBuilder {
   std::vector<std::array<std::uint32_t, 2>> lines_;
   std::vector<std::string> warnings_, notes_;
   LabelNames names_;
+  std::vector<RegionPoint> region_points_;
   std::optional<std::vector<std::array<double, 3>>> holes_;
 
   std::uint64_t triangulated_ = 0, non_planar_ = 0, non_simple_ = 0;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "mesher/cdt/cdt.h"
 #include "mesher/chamfer/filter.h"
@@ -22,6 +24,7 @@ class Recorder {
   Recorder(const Session& session, Result& result) : session_(session), result_(result) {}
 
   RungCounts& ladder() { return result_.statistics.ladder; }
+  std::vector<std::string>& warnings() { return result_.warnings; }
   void checked(const SurfaceReport& report);
   // Facets were made planar. The triangles recorded are oriented as in the input.
   void planar(const PlanarizedSurface& planarized, const ValidityResult& validity);

@@ -231,6 +231,7 @@ class Lister {
 };
 
 std::string name_of(const Options& options, const MeshRegion& region) {
+  if (!region.name.empty()) return region.name;
   const auto name =
       region.label ? options.label_names.find(*region.label) : options.label_names.end();
   return name == options.label_names.end() ? "" : name->second;
@@ -274,7 +275,6 @@ RegionList list_regions(const surface::MergedSurface& merged, const PointStore& 
 
 Status choose_regions(const Options& options, const std::vector<MeshRegion>& regions,
                       ConformingMesh& mesh) {
-  if (options.regions == Regions::all) return {};
   std::set<RegionId> chosen;
   if (options.regions == Regions::largest) chosen.insert(kInside);
   for (const std::string& name : options.region_names) {
@@ -282,6 +282,10 @@ Status choose_regions(const Options& options, const std::vector<MeshRegion>& reg
     if (!for_each_called(name, options, regions, take)) {
       return unknown_region(name, options, regions);
     }
+  }
+  for (RegionId n = 1; n <= regions.size(); ++n) {
+    if (options.regions == Regions::all) chosen.insert(n);
+    if (regions[n - 1].is_hole) chosen.erase(n);
   }
   for (RegionId& region : mesh.region) {
     if (!chosen.contains(region)) region = kOutside;
@@ -292,6 +296,11 @@ Status choose_regions(const Options& options, const std::vector<MeshRegion>& reg
 Status find_region_sizes(const Options& options, const std::vector<MeshRegion>& regions,
                          std::vector<double>& sizes) {
   sizes.clear();
+  const auto is_bounded = [](const MeshRegion& region) { return region.max_edge > 0; };
+  if (std::ranges::any_of(regions, is_bounded)) {
+    sizes.push_back(0);
+    for (const MeshRegion& region : regions) sizes.push_back(region.max_edge);
+  }
   for (const auto& [name, max_edge] : options.region_sizes) {
     sizes.resize(regions.size() + 1, 0);
     const double size = max_edge;

@@ -20,11 +20,13 @@ struct RegionList {
 RegionList list_regions(const surface::MergedSurface& merged, const PointStore& points,
                         ConformingMesh& mesh);
 
-// Makes regions that are not to be written outside. An error if a name is that of no region.
+// Makes regions that are not to be written outside, as holes are. An error if a name is that of no
+// region.
 Status choose_regions(const Options& options, const std::vector<MeshRegion>& regions,
                       ConformingMesh& mesh);
 
-// The longest edge in each region, by its number; empty if none is bounded on its own. 0: any.
+// The longest edge in each region, by its number, of options and region points; empty if none is
+// bounded on its own. 0: any.
 Status find_region_sizes(const Options& options, const std::vector<MeshRegion>& regions,
                          std::vector<double>& sizes);
 

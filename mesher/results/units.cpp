@@ -90,7 +90,10 @@ const std::vector<Point>& written(const RemeshResult& result) {
 void scale(Result& result, int exponent) {
   for (Point& p : result.mesh.vertices) scale(p, exponent);
   for (Point& p : result.chamfered.vertices) scale(p, exponent);
-  for (MeshRegion& region : result.regions) region.volume = std::ldexp(region.volume, 3 * exponent);
+  for (MeshRegion& region : result.regions) {
+    region.volume = std::ldexp(region.volume, 3 * exponent);
+    region.max_edge = std::ldexp(region.max_edge, exponent);
+  }
   scale(result.exact, exponent);
   Statistics& s = result.statistics;
   for (double* length : {&s.bbox_diagonal, &s.tolerance, &s.max_surface_deviation,
@@ -172,6 +175,7 @@ Result moved_and_back(const Surface& surface, const Options& options, Task& task
   bool exact = true;
   for (Point& p : local.vertices) exact = exact && moves_exactly(p, frame);
   for (SizeSource& source : beside.size_field) exact = exact && moves_exactly(source.point, frame);
+  for (RegionPoint& p : beside.region_points) exact = exact && moves_exactly(p.point, frame);
   if (!exact) return as_given();
   Result result = scaled_and_back(local, beside, in_frame(frame));
   if (names_places(result)) return as_given();

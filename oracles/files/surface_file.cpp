@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <map>
 
@@ -317,6 +318,32 @@ class PlyReader {
   std::size_t at_ = 0;
 };
 
+void read_region_points(const std::string& path, TextReader& reader, Polyhedron& surface) {
+  const auto number = [&](double& value) {
+    const std::string_view word = reader.word_in_line();
+    if (!word.empty()) value = TextReader(path, word).number();
+    return !word.empty();
+  };
+  for (const bool is_hole : {true, false}) {
+    if (reader.at_end()) return;
+    const std::uint64_t count = reader.count();
+    reader.skip_line();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      reader.integer();
+      const double x = reader.number(), y = reader.number(), z = reader.number();
+      RegionPoint& region = surface.region_points.emplace_back(RegionPoint{{x, y, z}});
+      region.is_hole = is_hole;
+      double attribute = 0, volume = 0;
+      if (!is_hole && number(attribute)) {
+        char digits[32];
+        region.name.assign(digits, std::to_chars(digits, digits + sizeof digits, attribute).ptr);
+        if (number(volume) && volume > 0) region.volume = volume;
+      }
+      reader.skip_line();
+    }
+  }
+}
+
 // TetGen's .smesh and .poly. Points may be in a .node file of the same name.
 Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly) {
   TextReader reader(path, text);
@@ -395,6 +422,7 @@ Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly
     }
     if (markers) surface.labels.resize(surface.triangles.size(), static_cast<std::int32_t>(marker));
   }
+  read_region_points(path, reader, surface);
   return surface;
 }
 

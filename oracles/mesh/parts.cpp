@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "oracles/base/distances.h"
 #include "oracles/base/edge_key.h"
 #include "oracles/base/union_find.h"
+#include "oracles/mesh/region_points.h"
 #include "oracles/mesh/solids.h"
 #include "oracles/surface/input_surface.h"
 #include "oracles/verdict/edge_sizes.h"
@@ -45,13 +47,15 @@ class Parts {
         neighbours_(neighbours),
         points_(*complex.points),
         promise_(promise),
-        part_(complex.tetrahedra.size()) {}
+        part_(complex.tetrahedra.size()),
+        region_points_(input.region_points, complex) {}
 
   PartsResult run(double near) {
     collect_triangles();
     find_solids();
     result_.parts.checked = triangles_.size();
     connect();
+    find_parts_of_points();
     check_outer_faces();
     check_bare();
     check_missing();
@@ -59,6 +63,7 @@ class Parts {
     check_wanted();
     bound_edges();
     check_names();
+    check_names_by_points();
     check_list();
     if (near > 0 && !missing_.empty() && missing_.size() <= kMostSplit &&
         std::ranges::all_of(missing_, [&](Index t) { return is_split(triangles_[t], near); })) {
@@ -282,6 +287,64 @@ class Parts {
     }
   }
 
+  // --- points that tell of their region
+  // The part in which a point is; none if it is on a wall between two, or in no tetrahedron.
+  void find_parts_of_points() {
+    for (Index n = 0; n < input_.region_points.size(); ++n) {
+      std::set<Index> parts;
+      for (const Index t : region_points_.around(n)) parts.insert(part_.find(t));
+      if (parts.size() == 1) points_of_[*parts.begin()].push_back(n);
+      if (input_.region_points[n].is_hole && parts.size() == 1) {
+        result_.parts.fail(complex_.tet_name(region_points_.around(n).front()) +
+                           " is of a part with a hole point");
+      }
+    }
+  }
+  std::string name_by_points(const std::vector<Index>& points) const {
+    for (const Index n : points) {
+      if (!input_.region_points[n].name.empty()) return input_.region_points[n].name;
+    }
+    return "";
+  }
+  std::vector<Index> points_of(Index t) {
+    const auto at = points_of_.find(part_.find(t));
+    return at == points_of_.end() ? std::vector<Index>() : at->second;
+  }
+  // What the part of a tetrahedron is called.
+  std::string called(Index t) {
+    const std::string name = name_by_points(points_of(t));
+    return name.empty() ? called(solids_->around(complex_.tetrahedra[t])) : name;
+  }
+  // Those in the part within a shell, which the mesh does not have: within no smaller shell.
+  std::vector<Index> points_within(Index outer, const std::map<Index, ExactSum>& volumes,
+                                   UnionFind& shells) const {
+    std::vector<Index> points;
+    for (Index n = 0; n < input_.region_points.size(); ++n) {
+      if (!region_points_.around(n).empty()) continue;
+      Index innermost = kNone;
+      for (const auto& [shell, size] : volumes) {
+        const bool smaller = innermost == kNone || difference(size, volumes.at(innermost), 0) < 0;
+        if (size.sign() > 0 && smaller &&
+            region_points_.is_within(n, faces_of_shell(shell, shells))) {
+          innermost = shell;
+        }
+      }
+      if (innermost == outer) points.push_back(n);
+    }
+    return points;
+  }
+  std::vector<Face> faces_of_shell(Index shell, UnionFind& shells) const {
+    std::vector<Face> faces;
+    for (Index n = 0; n < triangles_.size(); ++n) {
+      for (const bool behind : {false, true}) {
+        if (is_empty(n, behind) && shells.find(side(n, behind)) == shell) {
+          faces.push_back(triangles_[n].corners);
+        }
+      }
+    }
+    return faces;
+  }
+
   // --- which parts are asked for
   bool asks_for_some() const { return promise_.largest_region || !promise_.region_names.empty(); }
 
@@ -301,14 +364,29 @@ class Parts {
   }
   bool is_asked_for(const std::string& name) const {
     return !name.empty() &&
-           std::ranges::find(promise_.region_names, name) != promise_.region_names.end();
+           std::ranges::any_of(promise_.region_names,
+                               [&](const std::string& asked) { return is_called(name, asked); });
+  }
+  // In a file all but the first set of a name have a number after it.
+  static bool is_called(const std::string& name, const std::string& wanted) {
+    if (!name.starts_with(wanted)) return false;
+    const std::string rest = name.substr(wanted.size());
+    return rest.empty() || (rest.size() > 1 && rest[0] == ' ' &&
+                            rest.find_first_not_of("0123456789", 1) == rest.npos);
   }
 
   // Is the part with this shell around it, which the mesh does not have, to be there?
   bool is_wanted(Index n, bool behind, Index shell, const std::map<Index, ExactSum>& volumes,
                  UnionFind& shells) const {
+    const std::vector<Index> points = points_within(shell, volumes, shells);
+    if (std::ranges::any_of(points, [&](Index p) { return input_.region_points[p].is_hole; })) {
+      return false;
+    }
     if (!asks_for_some()) return true;
-    if (!promise_.region_names.empty()) return is_asked_for(called(solids_->beside(n, behind)));
+    if (!promise_.region_names.empty()) {
+      const std::string name = name_by_points(points);
+      return is_asked_for(name.empty() ? called(solids_->beside(n, behind)) : name);
+    }
     ExactSum volume;
     exact::Volume6 volume6;
     for (const Tet& tet : complex_.tetrahedra) volume += volume6(points_, tet);
@@ -369,11 +447,12 @@ class Parts {
 
   // Names that are asked for are names of labels, where these have any.
   void check_known() {
-    if (input_.names.empty()) return;
+    if (input_.names.empty() && input_.region_points.empty()) return;
     const auto check = [&](const std::string& name) {
-      if (std::ranges::any_of(input_.names, [&](const auto& set) {
-            return set.first.first == 2 && set.second == name;
-          })) {
+      if (std::ranges::any_of(
+              input_.names,
+              [&](const auto& set) { return set.first.first == 2 && set.second == name; }) ||
+          std::ranges::count(input_.region_points, name, &RegionPoint::name) > 0) {
         return;
       }
       result_.parts.fail("nothing is called \"" + name + "\"");
@@ -392,7 +471,7 @@ class Parts {
     }
     if (promise_.region_names.empty()) return;
     for (const auto& [part, t] : first) {
-      const std::string name = called(solids_->around(complex_.tetrahedra[t]));
+      const std::string name = called(t);
       if (is_asked_for(name)) continue;
       result_.parts.fail(complex_.tet_name(t) + " is of a part that is called \"" + name +
                          "\", which is not promised");
@@ -400,13 +479,23 @@ class Parts {
   }
 
   void bound_edges() {
-    if (promise_.region_sizes.empty()) return;
+    const bool by_points = std::ranges::any_of(input_.region_points,
+                                               [](const RegionPoint& p) { return p.volume > 0; });
+    if (promise_.region_sizes.empty() && !by_points) return;
     std::map<Index, double> longest;  // of parts
     for (const auto& [part, t] : parts()) {
-      const std::string name = called(solids_->around(complex_.tetrahedra[t]));
       double& most = longest[part] = promise_.max_edge;
+      const auto bound = [&most](double size) {
+        if (most == 0 || size < most) most = size;
+      };
+      const std::string name = promise_.region_sizes.empty() ? "" : called(t);
       for (const auto& [region, size] : promise_.region_sizes) {
-        if (region == name && (most == 0 || size < most)) most = size;
+        if (region == name) bound(size);
+      }
+      // The edge of the regular tetrahedron of this volume.
+      for (const Index n : points_of(t)) {
+        const double volume = input_.region_points[n].volume;
+        if (volume > 0) bound(std::cbrt(volume * 6 * std::numbers::sqrt2));
       }
     }
     for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
@@ -484,6 +573,28 @@ class Parts {
     }
   }
 
+  // A region with a point of its own is called like that; of several, all but the first with a
+  // number after it.
+  void check_names_by_points() {
+    if (mesh_.regions.empty() || points_of_.empty()) return;
+    const auto is_of_region = [](const auto& set) { return set.first.first == 3; };
+    if (std::ranges::none_of(mesh_.names, is_of_region)) {
+      result_.regions.notes.emplace_back("the file has no names of regions");
+      return;
+    }
+    for (const auto& [part, points] : points_of_) {
+      const std::string wanted = name_by_points(points);
+      if (wanted.empty()) continue;
+      const std::int64_t region = mesh_.regions[region_points_.around(points.front()).front()];
+      const auto known = mesh_.names.find({3, region});
+      const std::string name = known == mesh_.names.end() ? "" : known->second;
+      const auto points_with = std::ranges::count(input_.region_points, wanted, &RegionPoint::name);
+      if (name == wanted || (points_with > 1 && is_called(name, wanted))) continue;
+      result_.regions.fail("region " + std::to_string(region) + " is called \"" + name +
+                           "\", and a point in it calls it \"" + wanted + "\"");
+    }
+  }
+
   void check_list() {
     if (mesh_.boundary.empty()) {
       if (mesh_.lists_boundary) result_.list.fail("the file lists no triangles");
@@ -524,7 +635,9 @@ class Parts {
   std::unique_ptr<Solids> solids_;
   std::map<Face, Index> by_corners_;
   UnionFind part_;
-  std::vector<Face> outer_, planted_;  // planted: in the tree
+  RegionPoints region_points_;
+  std::map<Index, std::vector<Index>> points_of_;  // of parts
+  std::vector<Face> outer_, planted_;              // planted: in the tree
   std::unique_ptr<BoxTree> tree_;
   std::vector<Index> missing_;  // triangles that are no faces and should be
   PartsResult result_;

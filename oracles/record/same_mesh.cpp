@@ -46,12 +46,12 @@ struct Change {
 };
 
 std::vector<Change> changes_of(const std::vector<Difference>& differences) {
-  struct Side {
+  struct SideOfFace {
     Face face;
     std::size_t difference;
     int sign;  // of the face seen from outside the tetrahedron; the other way in the record
   };
-  std::vector<Side> sides;
+  std::vector<SideOfFace> sides;
   for (std::size_t d = 0; d < differences.size(); ++d) {
     for (int i = 0; i < 4; ++i) {
       Face face = face_of(differences[d].tet, i);
@@ -59,7 +59,7 @@ std::vector<Change> changes_of(const std::vector<Difference>& differences) {
       sides.push_back({face, d, even == differences[d].written ? 1 : -1});
     }
   }
-  std::ranges::sort(sides, {}, &Side::face);
+  std::ranges::sort(sides, {}, &SideOfFace::face);
   std::vector<std::size_t> change_of(differences.size());
   std::iota(change_of.begin(), change_of.end(), std::size_t{0});
   const auto find = [&](std::size_t d) {
