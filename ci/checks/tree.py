@@ -171,6 +171,8 @@ def check_include(path, kind, header, root):
             return public_include(path, kind, header, root)
         rule = mesher_angle if kind == "<" else mesher_quoted
         reason = rule(layer, is_test, header)
+    elif path.startswith("ci/packaging/npm/port/"):  # stands for parts of the mesher
+        reason = mesher_angle("cli", is_test, header) if kind == "<" else None
     elif parts[0] == "ci" or kind == "<":
         reason = "other projects see installed headers, not <%s>" % header if header.startswith("mesher/") else None
     else:

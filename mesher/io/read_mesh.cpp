@@ -42,10 +42,10 @@ const MeshFormat* format_of_content(std::string_view bytes) {
                            : first.starts_with("<")        ? "VTU"
                            : second == "vertices"          ? "tet"
                                                            : "";
-  const auto* found = std::find_if(kFormats.begin(), kFormats.end(), [&](const MeshFormat& f) {
-    return f.name == std::string(name);
-  });
-  return found == kFormats.end() ? nullptr : found;
+  const MeshFormat* const end = kFormats.data() + kFormats.size();
+  const MeshFormat* const found = std::find_if(
+      kFormats.data(), end, [&](const MeshFormat& f) { return f.name == std::string(name); });
+  return found == end ? nullptr : found;
 }
 
 void parse(std::string_view bytes, const std::string& path, const FileBeside& beside,

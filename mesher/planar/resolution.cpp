@@ -24,23 +24,24 @@ struct Decimal {
 template <class Real>
 Decimal shortest(Real x) {
   std::array<char, 32> text{};
-  const auto end = std::to_chars(text.begin(), text.end(), x, std::chars_format::scientific).ptr;
-  const std::string_view all(text.begin(), static_cast<std::size_t>(end - text.begin()));
+  const char* const end =
+      std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific).ptr;
+  const std::string_view all(text.data(), static_cast<std::size_t>(end - text.data()));
   const std::size_t e = all.find('e');
   const auto digits = static_cast<int>(
       std::ranges::count_if(all.substr(0, e), [](char c) { return c >= '0' && c <= '9'; }));
   int exponent = 0;
   const std::string_view number = all.substr(all[e + 1] == '+' ? e + 2 : e + 1);
-  std::from_chars(number.begin(), number.end(), exponent);
+  std::from_chars(number.data(), number.data() + number.size(), exponent);
   return {digits, exponent - digits + 1};
 }
 
 // The double nearest to 10^n on every machine: std::pow is rounded as each library likes.
 double power_of_ten(int n) {
   std::array<char, 16> text = {'1', 'e'};
-  const auto end = std::to_chars(text.begin() + 2, text.end(), n).ptr;
+  const char* const end = std::to_chars(text.data() + 2, text.data() + text.size(), n).ptr;
   double power = 0;
-  std::from_chars(text.begin(), end, power);
+  std::from_chars(text.data(), end, power);
   return power;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <numeric>
 #include <optional>
 
@@ -34,7 +35,7 @@ std::string text(const Vec3& p) {
   return result;
 }
 
-std::string text(std::uint64_t n) {
+std::string text(std::integral auto n) {
   return std::to_string(n);
 }
 
@@ -315,7 +316,7 @@ class Checker {
       });
       for (const std::vector<Place>& found : of_task) {
         count(Kind::self_intersection) += found.size();
-        const std::size_t room = std::min(found.size(), most_places_ - all.size());
+        const std::size_t room = std::min<std::uint64_t>(found.size(), most_places_ - all.size());
         all.insert(all.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(room));
         if (stop_at_first_ && !found.empty()) break;  // others were found later, by other threads
       }
