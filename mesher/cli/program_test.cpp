@@ -104,6 +104,11 @@ TEST_F(Program, EdgesThatAreTooLongAreSaid) {
       << text("err.txt");
   EXPECT_EQ(run("in.off -o mesh.mesh --max-edge 20"), 0);
   EXPECT_EQ(text("err.txt").find("--max-edge"), std::string::npos) << text("err.txt");
+  write("sizes.txt", "0 0 12 0.3\n");
+  EXPECT_EQ(run("in.off -o mesh.mesh --surface keep --size-field sizes.txt"), 0);
+  EXPECT_NE(text("err.txt").find(" of the surface as given are longer than --size-field allows"),
+            std::string::npos)
+      << text("err.txt");
 }
 
 // A prism over a triangle with an angle of a degree: its facets meet at that, two of them have such

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/delmesher/region_name.h"
 #include "mesher/geometry/size_field.h"
 #include "mesher/geometry/vector.h"
 
@@ -242,13 +243,24 @@ std::string quality_text(const PlaneResult& result) {
          number(s.mean_min_angle, 2);
 }
 
-std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& options) {
-  const geometry::SizeField sizes(options.size_field, options.size_growth);
-  const double bound = bound_on_edges(options);
-  if (bound <= 0 && sizes.empty()) return {};
+namespace {
+
+// Longer than a bound, of an option, or than the sizes allow.
+struct EdgeBounds {
+  double most = 0;  // 0: any
+  std::string option;
+  geometry::SizeField sizes = {};
+  bool tells_given = false;  // those of the surface as given are told apart
+};
+
+// In the tetrahedra that count.
+template <class Counts>
+std::vector<std::string> warnings_of(const TetMesh& mesh, const EdgeBounds& bounds,
+                                     const Counts& counts) {
+  if (bounds.most <= 0 && bounds.sizes.empty()) return {};
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    if (options.region == Region::interior && !mesh.inside.empty() && mesh.inside[t] == 0) continue;
+    if (!counts(t)) continue;
     const auto& tet = mesh.tetrahedra[t];
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -257,9 +269,8 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
     }
   }
   base::sort_unique(edges);
-  // A surface that is kept has the edges that were given, which are told apart.
   std::vector<std::array<std::uint32_t, 2>> surface, given, rest;
-  if (options.surface == SurfaceChoice::keep || options.regions != Regions::solid) {
+  if (bounds.tells_given) {
     for (const auto& face : mesh.boundary) {
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t v = face[i], w = face[(i + 1) % 3];
@@ -299,34 +310,41 @@ std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& optio
     warn_of(given, " of the surface as given", option, is_too_long);
     warn_of(rest, "", option, is_too_long);
   };
-  if (bound > 0) {
-    const double most = bound * (1 + 1e-9);
-    warn(bound == options.max_edge ? "--max-edge" : "--size",
+  if (bounds.most > 0) {
+    const double most = bounds.most * (1 + 1e-9);
+    warn(bounds.option,
          [most](const Vec3& a, const Vec3& b) { return norm(subtract(b, a)) > most; });
   }
-  if (!sizes.empty()) {
-    warn("--size-field", [&](const Vec3& a, const Vec3& b) { return sizes.is_too_long(a, b); });
+  if (!bounds.sizes.empty()) {
+    warn("--size-field",
+         [&](const Vec3& a, const Vec3& b) { return bounds.sizes.is_too_long(a, b); });
   }
   return warnings;
 }
 
-std::vector<std::string> region_edge_warnings(const Result& result, const Options& options) {
-  std::vector<std::string> warnings;
+}  // namespace
+
+std::vector<std::string> edge_warnings(const Result& result, const Options& options,
+                                       const std::vector<SizeSource>& sizes,
+                                       const std::map<std::int32_t, std::string>& label_names) {
   const TetMesh& mesh = result.mesh;
+  // A surface that is kept has the edges that were given.
+  const bool kept = options.surface == SurfaceChoice::keep || options.regions != Regions::solid;
+  const double bound = bound_on_edges(options);
+  const EdgeBounds everywhere = {bound,
+                                 bound == options.max_edge ? "--max-edge" : "--size",
+                                 {sizes, options.size_growth},
+                                 kept};
+  std::vector<std::string> warnings = warnings_of(mesh, everywhere, [&](std::size_t t) {
+    return options.region != Region::interior || mesh.inside.empty() || mesh.inside[t] != 0;
+  });
   for (const RegionSize& size : options.region_sizes) {
-    TetMesh part;
-    part.vertices = mesh.vertices;
-    part.boundary = mesh.boundary;
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-      const auto& label = result.regions[static_cast<std::size_t>(mesh.regions[t] - 1)].label;
-      const auto name = label ? options.label_names.find(*label) : options.label_names.end();
-      if (name == options.label_names.end() || name->second != size.region) continue;
-      part.tetrahedra.push_back(mesh.tetrahedra[t]);
-    }
-    Options of_part;
-    of_part.regions = Regions::all;
-    of_part.max_edge = size.max_edge;
-    for (const std::string& warning : edge_warnings(part, of_part)) {
+    const auto is_there = [&](std::size_t t) {
+      const auto region = static_cast<std::size_t>(mesh.regions[t] - 1);
+      return name_of_region(result.regions[region], label_names) == size.region;
+    };
+    for (const std::string& warning :
+         warnings_of(mesh, {size.max_edge, "--max-edge", {}, true}, is_there)) {
       warnings.push_back(size.region + ": " + warning);
     }
   }

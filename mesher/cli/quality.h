@@ -1,6 +1,8 @@
 // The messages at the end of a run about the quality of the mesh that it wrote.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,10 +19,11 @@ std::string quality_text(const PlaneResult& result);
 // whether an edge or a corner of the input forces it. `delta`: Options::delta.
 std::vector<std::string> quality_warnings(const Result& result, double delta);
 
-// Warnings where edges of the mesh are longer than max_edge or the size field allow: how many, and
-// the longest. Those of corners that come back after refinement are not refined.
-std::vector<std::string> edge_warnings(const TetMesh& mesh, const Options& options);
-// The same of Options::region_sizes, in their regions.
-std::vector<std::string> region_edge_warnings(const Result& result, const Options& options);
+// Warnings where edges of the mesh are longer than max_edge, `sizes` with size_growth, or, in their
+// regions, region_sizes allow: how many, and the longest. Those of corners that come back after
+// refinement are not refined.
+std::vector<std::string> edge_warnings(const Result& result, const Options& options,
+                                       const std::vector<SizeSource>& sizes,
+                                       const std::map<std::int32_t, std::string>& label_names);
 
 }  // namespace delmesher::cli

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "mesher/delmesher/option_table.h"
+#include "mesher/delmesher/region_name.h"
 #include "mesher/io/named_sets.h"
 #include "mesher/io/text.h"
 
@@ -348,13 +349,8 @@ std::string region_name(const io::LabelNames& names, std::int32_t number) {
 io::LabelNames region_names(const std::vector<MeshRegion>& regions, const io::LabelNames& labels) {
   io::LabelNames names;
   for (std::size_t n = 0; n < regions.size(); ++n) {
-    const auto number = static_cast<std::int32_t>(n + 1);
-    const auto name = regions[n].label ? labels.find(*regions[n].label) : labels.end();
-    if (!regions[n].name.empty()) {
-      names.emplace(number, regions[n].name);
-    } else if (name != labels.end()) {
-      names.emplace(number, name->second);
-    }
+    std::string name = name_of_region(regions[n], labels);
+    if (!name.empty()) names.emplace(static_cast<std::int32_t>(n + 1), std::move(name));
   }
   return io::distinct_names(names);
 }

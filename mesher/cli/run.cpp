@@ -28,7 +28,6 @@ class Runner : RunSteps {
   int read();
   int label_by_angle();
   int check();
-  Options with_names(Options options) const;
   int mesh();
   int remesh();
   int write_surface_defects(const SurfaceReport& report) const;
@@ -125,19 +124,16 @@ io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) 
   return status;
 }
 
-// A region is chosen by the name of its label.
-Options Runner::with_names(Options options) const {
-  options.label_names = names_;
-  options.region_points = region_points_;
-  return options;
-}
-
 int Runner::mesh() {
   const auto* options = std::get_if<Options>(&command_.options);  // else those of cdt
   if (options == nullptr || options->regions == Regions::solid) ignore(region_points_);
   Result result = options != nullptr
-                      ? call(with_names(*options),
-                             [&](const Options& o) { return library_.tetrahedralize(surface_, o); })
+                      ? call(*options,
+                             [&](Options& o) {
+                               o.label_names = names_;  // by which regions are chosen
+                               o.region_points = region_points_;
+                               return library_.tetrahedralize(surface_, o);
+                             })
                       : call(std::get<CdtOptions>(command_.options), [&](const CdtOptions& o) {
                           return library_.constrained_delaunay(surface_, o);
                         });
@@ -168,10 +164,7 @@ int Runner::mesh() {
     for (std::string& warning : quality_warnings(result, kept ? 0 : options->delta)) {
       result.warnings.push_back(std::move(warning));
     }
-    for (std::string& warning : edge_warnings(result.mesh, *options)) {
-      result.warnings.push_back(std::move(warning));
-    }
-    for (std::string& warning : region_edge_warnings(result, with_names(*options))) {
+    for (std::string& warning : edge_warnings(result, *options, sizes_, names_)) {
       result.warnings.push_back(std::move(warning));
     }
   }

@@ -101,6 +101,7 @@ class RunSteps {
   const Library& library_;
   const Streams& streams_;
   RunFacts facts_;
+  std::vector<SizeSource> sizes_;  // of --size-field
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -109,7 +110,6 @@ class RunSteps {
   io::WriteStatus write_stats(const Outcome& outcome);
   double seconds() const;  // since the start
 
-  std::vector<SizeSource> sizes_;
   Clock::time_point start_ = Clock::now();
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/delmesher/region_name.h"
 #include "mesher/geometry/vector.h"
 
 namespace delmesher::results {
@@ -230,18 +231,11 @@ class Lister {
   RegionList list_;
 };
 
-std::string name_of(const Options& options, const MeshRegion& region) {
-  if (!region.name.empty()) return region.name;
-  const auto name =
-      region.label ? options.label_names.find(*region.label) : options.label_names.end();
-  return name == options.label_names.end() ? "" : name->second;
-}
-
 Status unknown_region(const std::string& name, const Options& options,
                       const std::vector<MeshRegion>& regions) {
   std::vector<std::string> names;
   for (const MeshRegion& region : regions) {
-    if (std::string known = name_of(options, region); !known.empty()) {
+    if (std::string known = name_of_region(region, options.label_names); !known.empty()) {
       names.push_back(std::move(known));
     }
   }
@@ -259,7 +253,7 @@ bool for_each_called(const std::string& name, const Options& options,
                      const std::vector<MeshRegion>& regions, const Visit& visit) {
   bool any = false;
   for (std::size_t n = 0; n < regions.size(); ++n) {
-    if (name.empty() || name_of(options, regions[n]) != name) continue;
+    if (name.empty() || name_of_region(regions[n], options.label_names) != name) continue;
     visit(static_cast<RegionId>(n + 1));
     any = true;
   }
