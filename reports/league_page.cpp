@@ -206,6 +206,17 @@ std::optional<double> limit_of(const RunRow& row, const char* kind_and_unit) {
   return value > 0 ? std::optional(value) : std::nullopt;
 }
 
+void leave_out(const std::vector<std::string>& meshers, Selection& selection) {
+  for (const std::string& mesher : meshers) {
+    selection.runs.erase(mesher);
+    std::erase(selection.meshers, mesher);
+  }
+  std::erase_if(selection.models, [&](const std::string& model) {
+    return std::all_of(selection.meshers.begin(), selection.meshers.end(),
+                       [&](const auto& m) { return selection.run(m, model) == nullptr; });
+  });
+}
+
 struct EqualLimits {
   std::optional<double> seconds, mebibytes;
   std::size_t kinds = 0;
@@ -418,13 +429,8 @@ void write_league(const std::vector<fs::path>& campaigns, const fs::path& page,
       meshers.rows.push_back(row);
     }
   }
-  std::erase_if(rows, [&](const RunRow& row) {
-    const auto& out = options.left_out;
-    return std::find(out.begin(), out.end(), row.key.mesher) != out.end();
-  });
-  if (rows.empty()) throw std::runtime_error("no runs");
-  selection = select_runs(latest_of(rows));
-  use_processor_time(selection);
+  leave_out(options.left_out, selection);
+  if (selection.models.empty()) throw std::runtime_error("no runs");
   const EqualLimits limits = make_limits_equal(selection);
   const fs::path csv = fs::path(page).replace_extension(".csv");
   // All of them or none.

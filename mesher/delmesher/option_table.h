@@ -474,20 +474,22 @@ bool set_in_regions(JobOptions& options, const Text& text, std::string_view list
   bool own = false;
   for (const std::string_view part : parts_of(list)) {
     const std::size_t at = part.rfind('=');
-    const std::string_view number = at == part.npos ? part : part.substr(at + 1);
+    const bool names_region = at != part.npos;
+    const std::string_view number = names_region ? part.substr(at + 1) : part;
     double value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (error != std::errc() || end != number.data() + number.size() || !(value > 0) ||
-        !text.bounds.allow(value) || at == 0 || (at == part.npos && own)) {
+        !text.bounds.allow(value) || at == 0 || (!names_region && own)) {
       return false;
     }
-    const auto is_there = [&](const auto& size) { return size.region == part.substr(0, at); };
-    if (at != part.npos && std::ranges::any_of(options.region_sizes, is_there)) return false;
-    if (at != part.npos) {
-      options.region_sizes.push_back({std::string(part.substr(0, at)), value});
-    } else {
+    if (!names_region) {
       own = set(options, text.name, value);
+      continue;
     }
+    const std::string_view name = part.substr(0, at);
+    const auto is_there = [&](const auto& size) { return size.region == name; };
+    if (std::ranges::any_of(options.region_sizes, is_there)) return false;
+    options.region_sizes.push_back({std::string(name), value});
   }
   return true;
 }
