@@ -167,24 +167,17 @@ class Parts {
           const bool same = sort_face(sorted) == sort_face(corners);
           triangles_[n].beside[same ? 1 : 0] = t;
         }
-        if (across == kNone) outer_.push_back(face);
+        if (across == kNone) outer_faces_.push_back(face);
       }
     }
   }
 
-  void plant(std::vector<Face> faces) {
-    std::vector<BoxTree::Box> boxes;
-    for (const Face& face : faces) boxes.push_back(box_around(points_, face));
-    tree_ = std::make_unique<BoxTree>(std::move(boxes));
-    planted_ = std::move(faces);
-  }
-
   // The ray begins just beyond the face, on the side to which it was moved or goes up.
   void check_outer_faces() {
-    plant(outer_);
-    for (Index n = 0; n < planted_.size(); ++n) {
-      const Face& face = planted_[n];
-      const RayCrossings above = crossings_above(points_, planted_, *tree_, face, n);
+    outer_.emplace(points_, std::move(outer_faces_));
+    for (Index n = 0; n < outer_->faces().size(); ++n) {
+      const Face& face = outer_->faces()[n];
+      const RayCrossings above = outer_->above(face, n);
       if (above.on_triangle) {
         result_.parts.fail(complex_.face_name(face) + " lies on another outer face");
       } else if (above.winding != (looks_up(points_, face) ? 0 : 1)) {
@@ -201,7 +194,7 @@ class Parts {
       const Triangle& t = triangles_[n];
       if (t.beside[0] != kNobody || t.beside[1] != kNobody) continue;
       ++bare;
-      const RayCrossings above = crossings_above(points_, planted_, *tree_, t.corners);
+      const RayCrossings above = outer_->above(t.corners);
       if (above.on_triangle || above.winding != 0) {
         result_.parts.fail(name(t) + " is not a face of the mesh");
         missing_.push_back(n);
@@ -564,8 +557,8 @@ class Parts {
           surface.push_back(triangle.corners);
         }
       }
-      plant(surface);
-      const RayCrossings above = crossings_above(points_, planted_, *tree_, complex_.tetrahedra[t]);
+      const RayCrossings above =
+          RayTarget(points_, std::move(surface)).above(complex_.tetrahedra[t]);
       if (above.on_triangle || above.count % 2 == 0) {
         result_.regions.fail("region " + std::to_string(mesh_.regions[t]) + " is called " +
                              named->second + ", and lies outside of that");
@@ -637,8 +630,8 @@ class Parts {
   UnionFind part_;
   RegionPoints region_points_;
   std::map<Index, std::vector<Index>> points_of_;  // of parts
-  std::vector<Face> outer_, planted_;              // planted: in the tree
-  std::unique_ptr<BoxTree> tree_;
+  std::vector<Face> outer_faces_;
+  std::optional<RayTarget> outer_;
   std::vector<Index> missing_;  // triangles that are no faces and should be
   PartsResult result_;
 };

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "oracles/base/edge_key.h"
-#include "oracles/surface/input_surface.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -32,13 +31,16 @@ RayTarget::RayTarget(const ExactPoints& points, std::vector<Face> faces)
 
 // The ray begins just beyond the face, on the side to which it was moved or goes up.
 bool RayTarget::surrounds(const Face& face, bool behind, Index own) const {
-  const bool above = looks_up(*points_, face) != behind;
-  const std::uint64_t count = crossings_above(*points_, faces_, *tree_, face, own).count;
-  return (count + (!above && own != kNone ? 1 : 0)) % 2 != 0;
+  const bool from_above = looks_up(*points_, face) != behind;
+  return (above(face, own).count + (!from_above && own != kNone ? 1 : 0)) % 2 != 0;
 }
 
 bool RayTarget::surrounds(std::span<const Index> corners) const {
-  return crossings_above(*points_, faces_, *tree_, corners).count % 2 != 0;
+  return above(corners).count % 2 != 0;
+}
+
+RayCrossings RayTarget::above(std::span<const Index> corners, Index except) const {
+  return crossings_above(*points_, faces_, *tree_, corners, except);
 }
 
 Solids::Solids(const ExactPoints& points, const std::vector<Face>& faces,

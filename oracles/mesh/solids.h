@@ -12,6 +12,7 @@
 #include "oracles/base/exact_points.h"
 #include "oracles/base/exact_sum.h"
 #include "oracles/files/mesh_file.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof::oracles {
 
@@ -28,6 +29,8 @@ class RayTarget {
   bool surrounds(const Face& face, bool behind, Index own) const;
   // Or the centroid of corners?
   bool surrounds(std::span<const Index> corners) const;
+  // What a ray upwards from the centroid of corners crosses, `except` for one face.
+  RayCrossings above(std::span<const Index> corners, Index except = kNone) const;
   const std::vector<Face>& faces() const { return faces_; }
 
  private:
