@@ -29,6 +29,7 @@ using namespace policies;  // NOLINT(google-build-using-namespace)
 
 // Bodies of several labels, or something that is no solid: but nothing that no complex has, nor an
 // open surface alone. That several bodies of one label are apart costs too much to find out.
+// Without repetitions the surface is a valid complex then.
 bool may_have_regions(const Surface& surface, const SurfaceReport& report) {
   using Kind = Defect::Kind;
   constexpr Kind kOfNoComplex[] = {Kind::non_finite, Kind::index_out_of_range, Kind::empty,
@@ -47,9 +48,6 @@ bool may_have_regions(const Surface& surface, const SurfaceReport& report) {
 ComplexReport find_regions(const Surface& surface, const Options& options, Control& control,
                            std::vector<std::string>& warnings) {
   const MergedSurface merged = merge_repeated(surface);
-  const ValidityResult validity =
-      check_validity(merged.surface, true, control, kMostPlaces, Rules::complex);
-  if (!validity.report.status.ok()) return {};
   Session s(options, control);
   const SurfaceTopology topology = with_facet_per_triangle(
       build_topology(merged.surface, s.points, s.predicates, Rules::complex));
@@ -61,6 +59,23 @@ ComplexReport find_regions(const Surface& surface, const Options& options, Contr
   ComplexReport report = list_regions(merged, s.points, cdt.mesh).report;
   enter_region_points(options.region_points, cdt.mesh, s.points, report.regions, warnings);
   return report;
+}
+
+// Of a valid surface: its facets, and how hard it is to mesh.
+void look_at_facets(const Surface& surface, const ValidityResult& validity, const Options& options,
+                    Control& control, SurfaceReport& report) {
+  Session s(options, control);
+  s.diagonal = report.bbox_diagonal;
+  const PlanarizedSurface planarized = enter_surface(surface, validity, Planes::to_the_end, s);
+  report.planar_bound = planarized.bound;
+  report.planar_facets = s.surface.topology().facet_triangles.size();
+  report.facets = planarized.planes.empty() ? report.planar_facets : planarized.given_facets;
+  report.smallest_local_feature_size =
+      smallest_local_feature_size(s.surface.topology(), s.points, control);
+  const chamfer::AcuteCount acute = chamfer::count_acute(
+      s.surface.topology(), s.points, s.predicates, chamfer_options(options), control);
+  report.acute_vertices = acute.vertices;
+  report.acute_edges = acute.edges;
 }
 
 }  // namespace
@@ -77,23 +92,13 @@ SurfaceReport check_surface(const Surface& surface, const CheckOptions& given) {
     control.enter(Phase::check);
     ValidityResult validity = check_validity(surface, false, control);
     report = std::move(validity.report);
+    Status found = report.status;
+    if (found.ok()) look_at_facets(surface, validity, options, control, report);
+    // Last: a limit that this meets leaves the others.
     if (given.want_regions && may_have_regions(surface, report)) {
       report.complex = find_regions(surface, options, control, report.warnings);
     }
-    if (!report.status.ok()) return report.status;
-    Session s(options, control);
-    s.diagonal = report.bbox_diagonal;
-    const PlanarizedSurface planarized = enter_surface(surface, validity, Planes::to_the_end, s);
-    report.planar_bound = planarized.bound;
-    report.planar_facets = s.surface.topology().facet_triangles.size();
-    report.facets = planarized.planes.empty() ? report.planar_facets : planarized.given_facets;
-    report.smallest_local_feature_size =
-        smallest_local_feature_size(s.surface.topology(), s.points, control);
-    const chamfer::AcuteCount acute = chamfer::count_acute(
-        s.surface.topology(), s.points, s.predicates, chamfer_options(options), control);
-    report.acute_vertices = acute.vertices;
-    report.acute_edges = acute.edges;
-    return {};
+    return found;
   });
   report.status = status;
   return report;

@@ -500,6 +500,28 @@ TEST(Check, ListsRegionsWallsAndLeaks) {
   EXPECT_EQ(leaky.open[1].region, leaky.open[0].region);
 }
 
+TEST(Check, LooksForRegionsLast) {
+  Builder builder;
+  for (int n = 0; n < 40; ++n) builder.box({3.0 * n, 0, 0}, {3.0 * n + 2, 2, 2}, n % 2 + 1);
+  std::size_t calls = 0, most = 1'000'000;
+  delmesher::CheckOptions options;
+  options.threads = 1;
+  options.progress = [&](const delmesher::Progress&) { return ++calls <= most; };
+  const delmesher::SurfaceReport without = delmesher::check_surface(builder.surface(), options);
+  most = calls;
+  calls = 0;
+  options.want_regions = true;
+  const delmesher::SurfaceReport stopped = delmesher::check_surface(builder.surface(), options);
+  EXPECT_EQ(stopped.status.code, StatusCode::interrupted);
+  EXPECT_TRUE(stopped.complex.regions.empty());
+  EXPECT_EQ(stopped.facets, without.facets);
+  EXPECT_EQ(stopped.facets, 240U);
+  EXPECT_GT(stopped.smallest_local_feature_size, 0);
+  most = 1'000'000;
+  const delmesher::SurfaceReport whole = delmesher::check_surface(builder.surface(), options);
+  EXPECT_EQ(whole.complex.regions.size(), 40U);
+}
+
 TEST(AllRegions, AreNotRefinedNorRecordedYet) {
   Builder builder;
   builder.box({0, 0, 0}, {1, 1, 1});
