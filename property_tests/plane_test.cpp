@@ -1,5 +1,6 @@
 // End-to-end properties of triangulate_polygon, judged by the exact oracles of the plane.
-// TETPROOF_ITERATIONS widens the generated inputs; the long run is tetproof-plane --tiny 1000.
+// TETPROOF_ITERATIONS widens the generated inputs; the long run is tiny-angles of tetproof
+// generate.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -49,6 +49,11 @@ std::vector<std::pair<std::string, std::string>> limits_and_meshers(
 
 }  // namespace
 
+bool is_of_tetrahedra(double MeshColumns::*column) {
+  return column == &MeshColumns::min_dihedral || column == &MeshColumns::max_dihedral ||
+         column == &MeshColumns::mean_min_dihedral || column == &MeshColumns::mean_max_dihedral;
+}
+
 Value wall_seconds() {
   return [](const RunRow& row) { return row.wall_seconds; };
 }

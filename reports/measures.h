@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "reports/selection.h"
@@ -16,10 +17,16 @@ using Value = std::function<std::optional<double>(const RunRow&)>;
 // Which mesh of a run: RunRow::mesh, ::inside or ::refined.
 using Part = std::optional<MeshColumns> RunRow::*;
 
+// Is it one that a mesh of the plane lacks?
+bool is_of_tetrahedra(double MeshColumns::*column);
+
 template <typename T>
 Value of(Part part, T MeshColumns::*column) {
   return [=](const RunRow& row) -> std::optional<double> {
     if (!(row.*part)) return std::nullopt;
+    if constexpr (std::is_same_v<T, double>) {
+      if (row.region == "plane" && is_of_tetrahedra(column)) return std::nullopt;
+    }
     return static_cast<double>((*(row.*part)).*column);
   };
 }

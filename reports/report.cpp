@@ -90,7 +90,8 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
   }
   add("league", "League",
       "Every mesher on every model, judged by the same oracles; the most successful first.",
-      {league_table(selection), family_table(selection, families), solver_table(selection)},
+      {league_table(selection), plane_table(selection), family_table(selection, families),
+       solver_table(selection)},
       {cactus_chart(selection), size_cactus_chart(selection)});
   add("matrix", "League: wrong results, and model by model", "",
       {wrong_result_table(selection), league_matrix(selection, families)}, {})

@@ -300,7 +300,18 @@ std::optional<SolverColumns> solver_columns(const std::string& mesh_json) {
 std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std::string& member) {
   Json json = Json::parse(json_text, nullptr, false);
   if (!member.empty() && json.is_object()) json = json.value(member, Json());
-  if (!json.is_object() || !json.contains("tetrahedra")) return std::nullopt;
+  if (!json.is_object()) return std::nullopt;
+  if (json.contains("triangles") && !json.contains("tetrahedra")) {  // of the plane
+    for (const auto& [key, as] : {std::pair("triangles", "tetrahedra"),
+                                  {"min_angle", "min_face_angle"},
+                                  {"max_angle", "max_face_angle"},
+                                  {"mean_min_angle", "mean_min_face_angle"},
+                                  {"mean_max_angle", "mean_max_face_angle"},
+                                  {"area", "volume"}}) {
+      json[as] = json.value(key, Json());
+    }
+  }
+  if (!json.contains("tetrahedra")) return std::nullopt;
   const auto number = [&](const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_number() ? found->get<double>() : 0.0;

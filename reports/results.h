@@ -41,7 +41,9 @@ struct RunKey {
   auto operator<=>(const RunKey&) const = default;
 };
 
-// Size, angles and shapes of a written mesh, as measured from the file (reports/mesh_quality.h).
+// Size, angles and shapes of a written mesh, as measured from the file (reports/mesh_quality.h). Of
+// a mesh of the plane (plane_quality.h) the triangles are the tetrahedra, their angles those of
+// faces and their area the volume; it has no others.
 struct MeshColumns {
   std::uint64_t vertices = 0, tetrahedra = 0;
   double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
@@ -77,7 +79,7 @@ struct RunRow {
   std::optional<MeshColumns> inside;
   std::optional<MeshColumns> refined;  // before the enriched CDT, by the mesher's account
   std::optional<std::uint64_t> inverted, flat;
-  std::string region;        // the region that the mesh covers: "hull", "interior" or empty
+  std::string region;        // that the mesh covers: "hull", "interior", "plane" or empty
   std::string promise;       // of the surface, in words: "exact", ...; empty in older results
   std::string stats_json;    // the mesher's own, empty if none
   std::string mesh_json;     // measured, empty if no readable mesh

@@ -44,7 +44,10 @@ constexpr const char* kKnownOrder[] = {"tetgen-T0",
                                        "delmesher-nobridges",
                                        "delmesher-split",
                                        "delmesher-keep",
-                                       "delmesher"};
+                                       "delmesher",
+                                       "plane",
+                                       "triangle",
+                                       "cgal-mesh2"};
 
 std::vector<std::string> ordered_meshers(
     const std::map<std::string, std::map<std::string, RunRow>>& runs) {

@@ -58,6 +58,9 @@ Table limit_table(const Selection& selection);
 // How often our mesher took the rungs of its ladder. No rows if it took none.
 Table ladder_table(const Selection& selection);
 
+// Meshers of the plane: success, angles, triangles, time. No rows if there are none.
+Table plane_table(const Selection& selection);
+
 // How long runs took, in the paper's classes and shorter ones.
 Table time_table(const Selection& selection);
 

@@ -74,9 +74,9 @@ FOLDERS = {
     "ci": (),
 }
 
-# The benchmarks time the kernels. The adapters of peers and the table of plane meshers read and write with the very code of the mesher's command line, so that every mesher
+# The benchmarks time the kernels. The adapters of peers read and write with the very code of the mesher's command line, so that every mesher
 # sees the same doubles; the io library needs nothing of the mesher but the public header.
-ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/peers/tetgen/": "mesher/io/", "corpus/peers/programs/": "mesher/io/", "corpus/plane/": "mesher/io/",
+ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/peers/tetgen/": "mesher/io/", "corpus/peers/programs/": "mesher/io/",
             "python/": "mesher/delmesher/option_table.h", "corpus/peers/meshers": "mesher/delmesher/option_table.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

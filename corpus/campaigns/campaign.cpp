@@ -251,6 +251,7 @@ class Job {
     }
     std::vector<std::string> argv = {options_.self.string(), "measure", files_.mesh.string(), "-o",
                                      measured().string()};
+    if (mesher_.of_plane()) argv.emplace_back("--plane");
     if (options_.solver) argv.emplace_back("--solver");
     start(argv, options_.verify_limits);
     return true;
@@ -334,8 +335,9 @@ class Job {
       verdict["no_sidecar"] = no_sidecar_;
       row_.verdict_json = verdict.dump();
     }
-    if (is_wrong) start_picture();
-    return is_wrong;
+    const bool is_drawn = is_wrong && !mesher_.of_plane();
+    if (is_drawn) start_picture();
+    return is_drawn;
   }
 
   // A picture of the place that an oracle names. The verdict is as good without it.
@@ -380,9 +382,11 @@ class Job {
     row_.inverted = json.at("inverted").get<std::uint64_t>();
     row_.flat = json.at("flat").get<std::uint64_t>();
     const auto crowded = json.at("crowded_faces").get<std::uint64_t>();
-    if (row_.mesh->tetrahedra == 0) wrong("no tetrahedra");
-    if (*row_.inverted > 0) wrong(std::to_string(*row_.inverted) + " inverted tetrahedra");
-    if (crowded > 0) wrong(std::to_string(crowded) + " faces of more than two tetrahedra");
+    const bool plane = mesher_.of_plane();
+    const std::string cells = plane ? "triangles" : "tetrahedra", sides = plane ? "edges" : "faces";
+    if (row_.mesh->tetrahedra == 0) wrong("no " + cells);
+    if (*row_.inverted > 0) wrong(std::to_string(*row_.inverted) + " inverted " + cells);
+    if (crowded > 0) wrong(std::to_string(crowded) + " " + sides + " of more than two " + cells);
   }
 
   // The mesh, files that belong to it (.ele, .face), and the chamfered surface. The name holds

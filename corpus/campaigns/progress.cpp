@@ -124,7 +124,8 @@ void Progress::done(const RunRow& row, double seconds) {
   remaining_.done(row.key.mesher, seconds);
   if (terminal_) return;
   std::string result = row.disposition == Disposition::ok ? "" : ", " + one_line(row.reason, 120);
-  if (row.mesh) result = fmt::format(", {} tetrahedra", row.mesh->tetrahedra) + result;
+  const char* cells = row.region == "plane" ? "triangles" : "tetrahedra";
+  if (row.mesh) result = fmt::format(", {} {}", row.mesh->tetrahedra, cells) + result;
   if (row.verify_seconds) result += fmt::format(", verified in {:.2f} s", *row.verify_seconds);
   fmt::print("[{}/{}] {} {}: {}, {:.2f} s, {:.0f} MB{}\n", finished_, total_,
              printable(row.key.mesher), printable(row.model_name),

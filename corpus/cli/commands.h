@@ -34,7 +34,7 @@ struct RunArguments {
 };
 
 struct MeshersArguments {
-  bool at_hand = false;  // the names alone of those that can be run here
+  bool at_hand = false;  // the names alone of those of surfaces that can be run here
 };
 
 struct ExportArguments {
@@ -70,7 +70,7 @@ struct ReportArguments {
 
 struct MeasureArguments {
   std::string mesh, output;  // no output: standard output
-  bool solver = false;
+  bool solver = false, plane = false;
 };
 
 struct PictureArguments {

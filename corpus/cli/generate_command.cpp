@@ -2,6 +2,7 @@
 
 #include "corpus/cli/commands.h"
 #include "corpus/generators/generate.h"
+#include "corpus/generators/planar_graphs.h"
 #include "oracles/files/surface_file.h"
 
 namespace tetproof {
@@ -11,6 +12,7 @@ int list_families() {
   for (const auto* group : {&families(), &sampled_families()}) {
     for (const Family& family : *group) fmt::print("{:<16} {}\n", family.name, family.description);
   }
+  fmt::print("{}\n", kPlanarFamilies);
   return 0;
 }
 
@@ -21,11 +23,13 @@ std::vector<const Family*> chosen_families(const GenerateArguments& arguments) {
       for (const Family& family : families()) chosen.push_back(&family);
     } else if (const Family* family = find_family(name)) {
       chosen.push_back(family);
-    } else {
+    } else if (!is_planar_family(name)) {
       throw UsageError("unknown family: " + name + " (see generate --list)");
     }
   }
-  if (chosen.empty()) throw UsageError("a family is expected (see generate --list), or all");
+  if (arguments.families.empty()) {
+    throw UsageError("a family is expected (see generate --list), or all");
+  }
   if (arguments.folder.empty()) throw UsageError("-o DIR is expected");
   return chosen;
 }
@@ -45,6 +49,13 @@ int generate_command(const GenerateArguments& arguments) {
     const oracles::Polyhedron read = oracles::read_surface(model);
     request.models.push_back({read.vertices, read.triangles, read.labels});
   }
+  std::size_t graphs = 0;
+  for (const std::string& name : arguments.families) {
+    if (!is_planar_family(name)) continue;
+    graphs += write_planar_graphs(name, arguments.first, arguments.count, arguments.folder);
+  }
+  if (graphs > 0) fmt::print("{} planar graphs in {}\n", graphs, arguments.folder);
+  if (request.families.empty()) return 0;
   const GenerateSummary summary = generate_files(request);
   fmt::print("{} valid polyhedra and {} invalid twins in {}\n", summary.valid, summary.twins,
              arguments.folder);

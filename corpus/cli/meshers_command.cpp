@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <string_view>
+
 #include "corpus/campaigns/process.h"
 #include "corpus/cli/commands.h"
 #include "corpus/peers/peers.h"
@@ -19,7 +21,8 @@ int meshers_command(const MeshersArguments& arguments) {
   for (const Peer& peer : peers()) {
     const std::string missing = why_not_at_hand(peer.name, programs);
     if (arguments.at_hand) {
-      if (missing.empty()) fmt::print("{}\n", peer.name);
+      const bool plane = peer.region == std::string_view("plane");
+      if (missing.empty() && !plane) fmt::print("{}\n", peer.name);
       continue;
     }
     if (!missing.empty()) {

@@ -76,6 +76,10 @@ std::vector<Mesher> chosen_meshers(const RunArguments& arguments) {
                                  "; NAME=cmd:'...' gives another name");
       }
     }
+    const auto of_plane = [](const Mesher& mesher) { return mesher.of_plane(); };
+    if (std::ranges::any_of(meshers, of_plane) && !std::ranges::all_of(meshers, of_plane)) {
+      throw std::runtime_error("meshers of the plane and of surfaces have no models in common");
+    }
   } catch (const std::runtime_error& error) {
     throw UsageError(std::string("-m: ") + error.what());
   }

@@ -44,7 +44,8 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   std::string names;
   for (const std::string& name : mesher_names()) names += name + ", ";
   app->add_option("paths", a.paths,
-                  "Surface files, or folders of .off .obj .stl .ply files, also .gz")
+                  "Surface files, or folders of .off .obj .stl .ply files, also .gz; for meshers "
+                  "of the plane files of planar graphs")
       ->required();
   app->add_option("-m,--mesher", a.meshers,
                   names +
@@ -139,7 +140,7 @@ CLI::App* declare_merge(CLI::App& tetproof, MergeArguments& a) {
 CLI::App* declare_meshers(CLI::App& tetproof, MeshersArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
       "meshers", "List other meshers known by name: licence, promise, version or what is missing");
-  app->add_flag("--at-hand", a.at_hand, "Only the names of those that can be run here");
+  app->add_flag("--at-hand", a.at_hand, "Only the names of those of surfaces that can be run here");
   return app;
 }
 
@@ -158,6 +159,7 @@ CLI::App* declare_measure(CLI::App& tetproof, MeasureArguments& a) {
   CLI::App* app =
       tetproof.add_subcommand("measure", "Angles, counts and orientation of a mesh file, as JSON");
   app->add_option("mesh", a.mesh, "A .mesh, .msh, .vtu, .node or .tet file")->required();
+  app->add_flag("--plane", a.plane, "A mesh of triangles in the plane: .msh, .vtu, .node or .off");
   app->add_option("-o,--output", a.output, "Where to write it (default: standard output)");
   app->add_flag("--solver", a.solver, "Solve Poisson's equation on it, too");
   return app;
@@ -278,7 +280,8 @@ CLI::App* declare_slurm(CLI::App& tetproof, SlurmArguments& a) {
 #ifdef TETPROOF_HAS_GENERATE
 CLI::App* declare_generate(CLI::App& tetproof, GenerateArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
-      "generate", "Near-degenerate polyhedra, certified valid, and invalid twins");
+      "generate",
+      "Near-degenerate polyhedra, certified valid, and invalid twins; and planar graphs");
   app->add_option("family", a.families, "Names of families, or all");
   app->add_option("--seed", a.seed)->capture_default_str();
   app->add_option("--first", a.first, "Number of the first member")->capture_default_str();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -39,7 +40,8 @@ constexpr OwnVariant kOwn[] = {
     {"delmesher-nobridges", "mesh --preset paper --simplify-bridges off"},
     {"delmesher-split", "mesh --surface split"},
     {"delmesher-keep", "mesh --surface keep"},
-    {"cdt", "cdt --region hull"}};
+    {"cdt", "cdt --region hull"},
+    {"plane", "plane"}};
 // One deviation from delmesher-split at a time, towards the paper: of the parameters and of
 // section 8.3. Each of the choices of --as-paper is another one.
 constexpr OwnVariant kDeviations[] = {
@@ -92,8 +94,9 @@ Mesher own_mesher(const std::string& name, const std::string& arguments,
   mesher.flags = arguments;
   const bool hull = arguments.find("--preset paper") != std::string::npos ||
                     arguments.find("--region hull") != std::string::npos;
-  mesher.region = hull ? "hull" : "interior";
-  mesher.mesh_extension = ".mesh";
+  const bool plane = arguments.starts_with("plane");
+  mesher.region = plane ? "plane" : hull ? "hull" : "interior";
+  mesher.mesh_extension = plane ? ".vtu" : ".mesh";
   mesher.exit_codes = ExitCodes::ours;
   mesher.command = [program = programs.delmesher.string(),
                     words = words_of(arguments)](const RunFiles& files) {
@@ -244,6 +247,7 @@ Mesher peer_mesher(const Peer& peer, const MesherPrograms& programs) {
   mesher.version = version_of(peer, programs);
   mesher.flags = peer.switches;
   mesher.region = peer.region;
+  if (mesher.of_plane()) mesher.promised = "plane";
   mesher.declared_deviation = peer.deviation;
   mesher.envelope = peer.envelope;
   mesher.mesh_extension = peer.extension;
@@ -271,16 +275,17 @@ void take_declarations(const std::string& text, Mesher& mesher) {
     const std::string key = piece.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : piece.substr(equals + 1);
     const std::optional<double> share = share_of(value);
-    if (key == "region" && (value == "hull" || value == "interior")) {
+    if (key == "region" && (value == "hull" || value == "interior" || value == "plane")) {
       mesher.region = value;
+      if (mesher.of_plane()) mesher.promised = "plane";
     } else if (key == "deviation" && share) {
       mesher.declared_deviation = *share;
     } else if (key == "envelope" && share && *share >= oracles::kLeastEnvelope) {
       mesher.envelope = *share;
     } else {
       throw std::runtime_error("cmd," + piece +
-                               ": region=hull, region=interior, deviation=FRACTION or "
-                               "envelope=FRACTION (from 1e-7 to 1) is "
+                               ": region=hull, region=interior, region=plane, "
+                               "deviation=FRACTION or envelope=FRACTION (from 1e-7 to 1) is "
                                "expected");
     }
   }
@@ -289,6 +294,7 @@ void take_declarations(const std::string& text, Mesher& mesher) {
 // Extensions of the files that `tetproof measure` and `verify` read.
 constexpr const char* kMeshExtensions[] = {".mesh", ".msh",  ".vtu", ".node",
                                            ".ele",  ".face", ".tet"};
+constexpr const char* kPlaneExtensions[] = {".msh", ".vtu", ".node", ".ele", ".off"};
 
 Mesher command_mesher(const std::string& name, const std::string& text) {
   const auto colon = text.find(':');
@@ -307,9 +313,12 @@ Mesher command_mesher(const std::string& name, const std::string& text) {
   mesher.line = line;
   mesher.mesh_extension = line.substr(start + 4, end - start - 4);
   const fs::path plain = oracles::without_gz("mesh" + mesher.mesh_extension);
-  if (std::ranges::find(kMeshExtensions, plain.extension()) == std::end(kMeshExtensions)) {
-    throw std::runtime_error("{out" + mesher.mesh_extension +
-                             "}: .mesh, .msh, .vtu, .node, .ele, .face or .tet is expected");
+  const auto known = mesher.of_plane() ? std::span<const char* const>(kPlaneExtensions)
+                                       : std::span<const char* const>(kMeshExtensions);
+  if (std::ranges::find(known, plain.extension()) == known.end()) {
+    std::string message = "{out" + mesher.mesh_extension + "}: one of";
+    for (const char* extension : known) message += std::string(" ") + extension;
+    throw std::runtime_error(message + " is expected");
   }
   mesher.command = [line, place = line.substr(start, end + 1 - start)](const RunFiles& files) {
     std::string command = line;

@@ -30,7 +30,7 @@ struct Mesher {
   std::string name;     // as given to -m, before any '='
   std::string version;  // of the program, with the first digits of the hash of its file
   std::string flags;    // everything of the command that is not a file of the run
-  std::string region;   // what it meshes: "interior", "hull" or "" if not known
+  std::string region;   // what it meshes: "interior", "hull", "plane" or "" if not known
   std::string mesh_extension;
   std::string line;               // for the shell, if it is a command of the user
   double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
@@ -42,6 +42,8 @@ struct Mesher {
   // Writes the mesh once more, to `again`, with the sidecar beside it; null if it knows none.
   std::function<std::vector<std::string>(const RunFiles&)> sidecar_command;
 
+  // Are its models planar graphs, and its meshes triangles?
+  bool of_plane() const { return region == "plane"; }
   // Is a surface of its own promised?
   bool own_surface() const;
 
@@ -57,7 +59,7 @@ struct Mesher {
 
 // Understands
 //   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges delmesher-split
-//   delmesher-keep cdt
+//   delmesher-keep cdt plane
 //   tetgen tetgen-T0 netgen gmsh-delaunay ...     the peers of peers.h
 //   delmesher+NAME                     one departure of delmesher-split from the paper undone:
 //   gabriel,
@@ -65,7 +67,8 @@ struct Mesher {
 //                                      name of --as-paper
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
 //   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and
-//   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss;
+//   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes (interior, hull or plane) and
+//                                               by how much it may miss;
 //   NAME=cmd,envelope=1e-3:'...'                if its boundary is a surface of its own, so near
 // \throw std::runtime_error for an unknown name or a program that is missing.
 Mesher make_mesher(const std::string& name, const MesherPrograms& programs);

@@ -59,6 +59,20 @@ TEST_F(Meshers, ThePapersExperiments) {
   EXPECT_EQ(command("tetgen-T0"), tetgen + " zpcqT0 in.off out.mesh stats.json");
 }
 
+TEST_F(Meshers, OfThePlane) {
+  const Mesher mesher = make_mesher("plane", programs_);
+  EXPECT_TRUE(mesher.of_plane());
+  EXPECT_EQ(mesher.mesh_extension, ".vtu");
+  EXPECT_EQ(mesher.promised, "plane");
+  EXPECT_FALSE(make_mesher("cdt", programs_).of_plane());
+  const Mesher other = make_mesher("own=cmd,region=plane:'mesh {in} {out.off}'", programs_);
+  EXPECT_TRUE(other.of_plane());
+  EXPECT_EQ(other.promised, "plane");
+  EXPECT_THROW(make_mesher("cmd:'mesh {in} {out.off}'", programs_), std::runtime_error);
+  EXPECT_THROW(make_mesher("cmd,region=plane:'mesh {in} {out.tet}'", programs_),
+               std::runtime_error);
+}
+
 TEST_F(Meshers, EveryDeviationAlone) {
   const std::string own = programs_.delmesher.string();
   const std::string files = " in.off -o out.mesh --stats stats.json -q";

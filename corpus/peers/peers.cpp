@@ -113,6 +113,10 @@ constexpr Peer kPeers[] = {
           "LGPL-3.0"),
     {"tetwild", "adapters/tetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",
      "github.com/Yixin-Hu/TetWild", "TetWild", "TETWILD_PROGRAM", ""},
+    {"cgal-mesh2", "tetproof-cgal-mesh2", "-", ".off", "plane", 0, 0, "GPL-3.0",
+     "package libcgal-dev"},
+    {"triangle", "adapters/triangle", "-pq20.7Q", ".node", "plane", 0, 0, "not free",
+     "package triangle-bin", "triangle", "TRIANGLE_PROGRAM", ""},
 };
 
 }  // namespace

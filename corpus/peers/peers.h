@@ -15,7 +15,7 @@ struct Peer {
   const char* adapter;
   const char* switches;
   const char* extension;  // of the mesh
-  const char* region;     // "interior" or "hull"
+  const char* region;     // "interior", "hull", or "plane": its models are planar graphs
   // What it promises of the surface, as fractions of the diagonal. At most one is not 0: without
   // any, the boundary tiles the input exactly as written; with a deviation it tiles it with
   // vertices that may be off by so much; with an envelope it is any surface that is nowhere farther

@@ -1,19 +1,33 @@
-// CGAL's 2D Delaunay mesher, the usual choice of users of C++. B = 1/8 is an angle of 20.7 degrees.
+// tetproof-cgal-mesh2 SWITCHES GRAPH OUT STATS.json: CGAL's 2D Delaunay mesher.
+// SWITCHES: "-"; B = 1/8 is an angle of 20.7 degrees. "holes": does not mesh, but writes the graph
+// to OUT.poly with a point in each hole, as Triangle wants it.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/version.h>
 
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <list>
 #include <map>
+#include <new>
 #include <set>
 
-#include "corpus/plane/bench.h"
+#include "corpus/peers/programs/adapter.h"
+#include "mesher/delmesher_files.h"
+#include "mesher/io/write_plane.h"
 
-namespace tetproof::plane_bench {
 namespace {
 
+using delmesher::PlanarGraph;
+using tetproof::adapter::Call;
+using tetproof::adapter::finish;
+using tetproof::adapter::Stopwatch;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Delaunay_mesh_vertex_base_2<Kernel>;
 using Face = CGAL::Delaunay_mesh_face_base_2<Kernel>;
@@ -98,37 +112,34 @@ std::map<Cdt::Vertex_handle, std::uint32_t> numbers(const PlanarGraph& graph, co
   return number;
 }
 
-void run(const PlanarGraph& graph, Measurement& m) {
-  double spent = -thread_seconds();
+// Adds to `meshing` the seconds without the search for holes, which other callers know.
+delmesher::PlaneMesh mesh(const PlanarGraph& graph, double& meshing) {
+  const Stopwatch inserting;
   Cdt cdt;
   insert(graph, cdt);
-  spent += thread_seconds();
+  meshing += inserting.seconds();
   const std::list<Kernel::Point_2> holes = seeds(graph, cdt, numbers(graph, cdt));
-  spent -= thread_seconds();
+  const Stopwatch refining;
   CGAL::Delaunay_mesher_2<Cdt, Criteria> mesher(cdt, Criteria(0.125, 0));
   if (!holes.empty()) mesher.set_seeds(holes.begin(), holes.end(), false);
   mesher.refine_mesh();
-  spent += thread_seconds();
+  meshing += refining.seconds();
+  delmesher::PlaneMesh result;
   std::map<Cdt::Vertex_handle, std::uint32_t> id;
-  std::vector<std::array<double, 2>> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
     if (!f->is_in_domain()) continue;
     std::array<std::uint32_t, 3> triangle;
     for (int i = 0; i < 3; ++i) {
       const auto [found, is_new] =
-          id.emplace(f->vertex(i), static_cast<std::uint32_t>(vertices.size()));
-      if (is_new) vertices.push_back({f->vertex(i)->point().x(), f->vertex(i)->point().y()});
+          id.emplace(f->vertex(i), static_cast<std::uint32_t>(result.vertices.size()));
+      if (is_new) result.vertices.push_back({f->vertex(i)->point().x(), f->vertex(i)->point().y()});
       triangle[static_cast<std::size_t>(i)] = found->second;
     }
-    triangles.push_back(triangle);
+    result.triangles.push_back(triangle);
   }
-  count_angles(vertices, triangles, m);
-  m.refined_angle = -1;
-  m.seconds = spent;
+  result.inside.assign(result.triangles.size(), 1);
+  return result;
 }
-
-}  // namespace
 
 PlanarGraph with_hole_points(const PlanarGraph& graph) {
   if (graph.insideness == delmesher::Insideness::enclosed) return graph;
@@ -143,8 +154,43 @@ PlanarGraph with_hole_points(const PlanarGraph& graph) {
   return result;
 }
 
-Mesher cgal_mesh_2() {
-  return {"CGAL Mesh_2", run};
+void deliver(const Call& call, const PlanarGraph& graph, double reading) {
+  delmesher::io::OutputSet outputs;
+  delmesher::io::WriteStatus status;
+  double meshing = 0;
+  if (call.switches == "holes") {
+    status = delmesher::io::write_poly(outputs, call.output, with_hole_points(graph));
+  } else {
+    status = delmesher::io::write_plane(outputs, call.output, mesh(graph, meshing));
+  }
+  if (status.ok()) status = outputs.commit();
+  if (!status.ok()) finish(call, 3, call.output, status.error);
+  std::ofstream(call.stats) << "{\"status\": \"ok\", \"phases_seconds\": {\"read\": " << reading
+                            << ", \"triangulate\": " << meshing << "}}\n";
+  finish(call, 0, call.input, "");
 }
 
-}  // namespace tetproof::plane_bench
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "--version") == 0) {
+    std::printf("CGAL %s\n", CGAL_VERSION_STR);
+    return 0;
+  }
+  const std::string switches = argc == 5 ? argv[1] : "";
+  if (switches != "-" && switches != "holes") {
+    std::fputs("usage: tetproof-cgal-mesh2 -|holes GRAPH OUT STATS.json\n", stderr);
+    return 2;
+  }
+  const Call call = {"tetproof-cgal-mesh2", switches, argv[2], argv[3], argv[4]};
+  const Stopwatch reading;
+  const delmesher::io::PlaneReadResult input = delmesher::io::read_plane(call.input);
+  if (!input.ok()) finish(call, 3, call.input, input.error);
+  try {
+    deliver(call, input.graph, reading.seconds());
+  } catch (const std::bad_alloc&) {
+    finish(call, 5, call.input, "out of memory");
+  } catch (const std::exception& error) {
+    finish(call, 4, call.input, std::string("CGAL: ") + error.what());
+  }
+}
