@@ -181,6 +181,13 @@ TEST(BigInteger, AgreesWithGmp) {
     mpz_class truncated;
     mpz_tdiv_q_2exp(truncated.get_mpz_t(), x.get_mpz_t(), shift);
     ASSERT_EQ(value(a >> shift), truncated);
+    BigInteger dropped = a;
+    dropped.drop_bits(shift);
+    ASSERT_EQ(value(dropped), truncated);
+    ASSERT_EQ(value(BigInteger::shifted_sum(a, shift, b, false)), mpz_class((x << shift) + y));
+    ASSERT_EQ(value(BigInteger::shifted_sum(a, shift, b, true)), mpz_class((x << shift) - y));
+    dropped.negate();
+    ASSERT_EQ(value(dropped), mpz_class(-truncated));
     ASSERT_EQ(a.sign(), sgn(x));
     if (sgn(x) != 0) {
       ASSERT_EQ(a.bit_length(), mpz_sizeinbase(x.get_mpz_t(), 2));

@@ -1,5 +1,6 @@
 #include "mesher/arithmetic/big_integer.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace delmesher::arithmetic {
@@ -138,6 +139,52 @@ BigInteger BigInteger::add(const BigInteger& a, const BigInteger& b, std::int32_
   subtract(out, x, m, y, n);
   result.normalise(m, x_negative);
   return result;
+}
+
+BigInteger BigInteger::shifted_sum(const BigInteger& a, std::size_t shift, const BigInteger& b,
+                                   bool minus) {
+  const std::size_t words = shift / 64, n = b.used();
+  const unsigned bits = shift % 64;
+  std::size_t m = a.used();
+  BigInteger result;
+  Limb* out = result.reset(std::max(m + words + 1, n) + 1);
+  // The shifted a ...
+  for (std::size_t i = 0; i < words; ++i) out[i] = 0;
+  if (bits != 0) {
+    out[words + m] = shift_left(out + words, a.data(), m, bits);
+  } else {
+    for (std::size_t i = 0; i < m; ++i) out[words + i] = a.data()[i];
+    out[words + m] = 0;
+  }
+  m += words + 1;
+  while (m > 0 && out[m - 1] == 0) --m;
+  for (; m < n; ++m) out[m] = 0;
+  // ... to which b comes.
+  const bool negative = a.size_ < 0, other = (b.size_ < 0) != minus;
+  if (negative == other) {
+    out[m] = arithmetic::add(out, out, m, b.data(), n);
+    result.normalise(m + 1, negative);
+  } else if (m > n || compare(out, b.data(), n) >= 0) {
+    subtract(out, out, m, b.data(), n);
+    result.normalise(m, negative);
+  } else {
+    BigInteger difference;
+    subtract(difference.reset(n), b.data(), n, out, m);
+    difference.normalise(n, other);
+    return difference;
+  }
+  return result;
+}
+
+void BigInteger::drop_bits(std::size_t shift) {
+  const std::size_t words = shift / 64;
+  const unsigned bits = shift % 64;
+  const bool negative = size_ < 0;
+  const std::size_t n = used() > words ? used() - words : 0;
+  Limb* limbs = heap_ ? heap_.get() : inline_;
+  if (words != 0) std::copy(limbs + words, limbs + words + n, limbs);
+  if (bits != 0) shift_right(limbs, limbs, n, bits);
+  normalise(n, negative);
 }
 
 BigInteger operator*(const BigInteger& a, const BigInteger& b) {

@@ -45,6 +45,12 @@ class BigInteger {
     return add(a, b, -b.size_);
   }
   friend BigInteger operator*(const BigInteger& a, const BigInteger& b);
+  // a 2^shift + b, or a 2^shift - b.
+  static BigInteger shifted_sum(const BigInteger& a, std::size_t shift, const BigInteger& b,
+                                bool minus);
+  void negate() { size_ = -size_; }
+  // As operator>>, in place.
+  void drop_bits(std::size_t shift);
   friend bool operator==(const BigInteger& a, const BigInteger& b) {
     return a.size_ == b.size_ && std::memcmp(a.data(), b.data(), a.used() * sizeof(Limb)) == 0;
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesher/arithmetic/dyadic.h"
+#include "mesher/arithmetic/fixed_integer.h"
 #include "mesher/base/check.h"
 #include "mesher/predicates/common_denominator.h"
 #include "mesher/predicates/exact_point.h"
@@ -25,8 +26,88 @@ struct ExactCorners {
   std::array<RationalPoint, 3> corner;
 };
 
+// a * 2^shift in another size, which must have room for it.
+template <int N, int M>
+arithmetic::FixedInteger<N> shifted(const arithmetic::FixedInteger<M>& a, int shift) {
+  const std::uint64_t beyond = a.negative() ? ~std::uint64_t{0} : 0;
+  const int words = shift / 64, bits = shift % 64;
+  const auto limb = [&](int i) { return i < 0 ? 0 : i < M ? a.limb[i] : beyond; };
+  arithmetic::FixedInteger<N> result;
+  for (int i = 0; i < N; ++i) {
+    const std::uint64_t low = limb(i - words);
+    result.limb[i] = bits == 0 ? low : low << bits | limb(i - words - 1) >> (64 - bits);
+  }
+  return result;
+}
+
+// x[n - 1] + sum of parameter[i] * (x[i] - x[n - 1]), i < n - 1, in integers of a fixed size. False
+// if they have no room for it.
+bool combine_doubles(std::span<const double> x, const std::array<double, 2>& parameter,
+                     Dyadic& result) {
+  using arithmetic::decompose, arithmetic::DoubleParts, arithmetic::FixedInteger;
+  // Differences have 127 bits, their products with parameters 180; shifted by 130 bits at most,
+  // three of them have room in five words.
+  constexpr int kMostBits = 126, kMostShift = 130, kWords = 5;
+  constexpr int kFar = 1 << 20;
+  const std::size_t last = x.size() - 1;
+  std::array<DoubleParts, 3> part;
+  int low = kFar, high = -kFar;
+  for (std::size_t i = 0; i <= last; ++i) {
+    part[i] = decompose(x[i]);
+    if (part[i].magnitude == 0) continue;
+    low = std::min(low, part[i].exponent);
+    high = std::max(high, part[i].exponent + 53);
+  }
+  if (high - low > kMostBits) return false;
+  const auto integer = [&](const DoubleParts& p) {
+    const bool zero = p.magnitude == 0;
+    return arithmetic::fixed_integer<2>(&p.magnitude, 1, p.negative, zero ? 0 : p.exponent - low);
+  };
+  const FixedInteger<2> anchor = integer(part[last]);
+  std::array<DoubleParts, 2> factor;
+  int scale = 0;
+  for (std::size_t i = 0; i < last; ++i) {
+    factor[i] = decompose(parameter[i]);
+    if (factor[i].magnitude != 0) scale = std::min(scale, factor[i].exponent);
+  }
+  if (-scale > kMostShift) return false;
+  FixedInteger<kWords> sum = shifted<kWords>(anchor, -scale);
+  for (std::size_t i = 0; i < last; ++i) {
+    const DoubleParts& f = factor[i];
+    if (f.magnitude == 0) continue;
+    if (f.exponent - scale > kMostShift) return false;
+    const FixedInteger<1> whole = {{f.negative ? -f.magnitude : f.magnitude}};
+    sum = sum + shifted<kWords>((integer(part[i]) - anchor) * whole, f.exponent - scale);
+  }
+  result = {};
+  if (sum.sign() == 0) return true;
+  const bool negative = sum.negative();
+  if (negative) sum = FixedInteger<kWords>{} - sum;
+  result.mantissa = BigInteger(sum.limb.data(), kWords, negative);
+  const std::size_t zeros = result.mantissa.trailing_zeros();
+  if (zeros != 0) result.mantissa.drop_bits(zeros);
+  result.exponent = low + scale + static_cast<std::int32_t>(zeros);
+  return true;
+}
+
+// combination() of corners that are doubles, as most are.
+bool combine_doubles(const PointStore& points, const PointDefinition& d, RationalPoint& result) {
+  const std::size_t count = d.kind == PointKind::on_segment ? 2 : 3;
+  std::array<Vec3, 3> corner{};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!points.is_explicit(d.corner[i])) return false;
+    corner[i] = points.nearest(d.corner[i]);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::array<double, 3> x = {corner[0][axis], corner[1][axis], corner[2][axis]};
+    if (!combine_doubles({x.data(), count}, {d.u, d.v}, result.numerator[axis])) return false;
+  }
+  return true;
+}
+
 // anchor + sum of parameter * (corner - anchor).
 RationalPoint combination(const PointStore& points, const PointDefinition& d) {
+  if (RationalPoint result; combine_doubles(points, d, result)) return result;
   const ExactCorners given(points, d);
   RationalPoint result = given.corner[given.count - 1];
   for (std::size_t axis = 0; axis < 3; ++axis) {
