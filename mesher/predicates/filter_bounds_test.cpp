@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "mesher/predicates/dihedral_filter.h"
 #include "mesher/predicates/filter.h"
 
 namespace delmesher::predicates::filter_bounds_test {
@@ -215,6 +216,29 @@ TEST(FilterBounds, InexactInDiametralBall) {
   expect_threshold(deep, 0x1p-10 / 3.4, false, filter);
 }
 
+// An edge of length 1 with wings of lengths 1 and 3, one known up to an error: the change is
+// 12 D N_e (N_u N_e + N_v N_e + 2 N_u N_v).
+TEST(FilterBounds, InexactDihedral) {
+  const std::array<Row, 4> points = {Row{0, 3, 0}, Row{0, 1, 0}, Row{0, 0, 1}, Row{0, 0, 0}};
+  const auto change = [&](double error) {
+    const double d = 2.0625 * error, u = 1 + d, v = 3 + d, e = 1 + d;
+    return 12 * d * e * (u * e + v * e + 2 * u * v);
+  };
+  double error = 0x1p-12;
+  while (change(error) < 3) error *= 1.001;
+  const auto filter = [](const std::array<Approximation, 4>& a) {
+    return filters::dihedral(a[0], a[1], a[2], a[3]);
+  };
+  expect_threshold(points, 0.99 * error, true, filter);
+  expect_threshold(points, 1.01 * error, false, filter);
+}
+
+// One cross overflows, the other one is tiny.
+TEST(FilterBounds, OverflowOfDihedral) {
+  EXPECT_EQ(filters::dihedral({0, 1e-300, 0, 0}, {0, 1e200, 0, 0}, {0, 0, 1e150, 0}, {0, 0, 0, 0}),
+            0);
+}
+
 // Products that underflow are not trusted, ordinary small ones are.
 TEST(FilterBounds, Underflow) {
   const auto corner = [](double s) {
@@ -229,6 +253,11 @@ TEST(FilterBounds, Underflow) {
   EXPECT_EQ(std::abs(ball(0x1p-179)), 1);
   EXPECT_EQ(ball(0x1p-181), 0);
   const auto dot = [](double s) { return filters::dot({s, 0, 0, 0}, {0, 0, 0, 0}, {s, 0, 0, 0}); };
+  const auto dihedral = [](double s) {
+    return filters::dihedral({0, s, s, 0}, {0, s, 0, 0}, {s, 0, 0, 0}, {0, 0, 0, 0});
+  };
+  EXPECT_EQ(dihedral(0x1p-224), 1);
+  EXPECT_EQ(dihedral(0x1p-226), 0);
   EXPECT_EQ(dot(0x1p-449), 1);
   EXPECT_EQ(dot(0x1p-451), 0);
   const auto diametral = [](double s) {

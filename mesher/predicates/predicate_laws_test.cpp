@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesher/predicates/dihedral_filter.h"
 #include "mesher/predicates/point_families.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/rational_reference.h"
@@ -394,7 +395,7 @@ class NearlyDegenerate : public ::testing::TestWithParam<double> {
 TEST_P(NearlyDegenerate, FiltersNeverErr) {
   fill(GetParam());
   const PointStore& store = sample_.store;
-  std::array<int, 2> orient{}, insphere{}, dot{}, ball{};  // unknown, certain
+  std::array<int, 2> orient{}, insphere{}, dot{}, ball{}, dihedral{};  // unknown, certain
   const auto check = [](int filter, int expected, std::array<int, 2>& counts) {
     ++counts[filter != 0 ? 1 : 0];
     ASSERT_TRUE(filter == 0 || filter == expected);
@@ -416,6 +417,8 @@ TEST_P(NearlyDegenerate, FiltersNeverErr) {
           reference::insphere(p.data()), insphere);
     check(filters::dot(a(v[0]), a(v[1]), a(v[2])),
           sgn(reference::dot(reference::minus(p[0], p[1]), reference::minus(p[2], p[1]))), dot);
+    check(filters::dihedral(a(v[0]), a(v[1]), a(v[2]), a(v[3])), reference::dihedral_sign(p.data()),
+          dihedral);
     if (reference::collinear(p[0], p[1], p[2])) continue;
     check(filters::in_diametral_ball(a(v[0]), a(v[1]), a(v[2]), a(v[3])),
           reference::in_diametral_ball(p.data()), ball);
@@ -426,6 +429,7 @@ TEST_P(NearlyDegenerate, FiltersNeverErr) {
   EXPECT_GT(insphere[1], 500);
   EXPECT_GT(dot[1], 500);
   EXPECT_GT(ball[1], 500);
+  EXPECT_GT(dihedral[1], 500);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shifts, NearlyDegenerate, ::testing::Values(0.0, 1.0, 1000.0));
@@ -467,6 +471,7 @@ TEST(Filters, AllowForTheErrorsOfImplicitPoints) {
     ASSERT_EQ(filters::orient3d(a(c), a(c ^ 1U), a(c ^ 6U), a(c ^ 7U)), 0);
     ASSERT_EQ(filters::dot(a(c ^ 1U), a(c), a(c ^ 4U)), 0);
     ASSERT_EQ(filters::dot(a(c ^ 1U), a(c), a(c ^ 6U)), 0);
+    ASSERT_EQ(filters::dihedral(a(c ^ 2U), a(c ^ 4U), a(c ^ 1U), a(c)), 0);
     // Corners see a diagonal of their rectangle under a right angle.
     ASSERT_EQ(filters::in_diametral_ball(a(c), a(c ^ 1U), a(c ^ 4U), a(c ^ 5U)), 0);
     ASSERT_EQ(filters::in_diametral_ball(a(c), a(c ^ 1U), a(c ^ 6U), a(c ^ 7U)), 0);

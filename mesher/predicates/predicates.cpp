@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesher/predicates/dihedral_filter.h"
 #include "mesher/predicates/stages.h"
 
 namespace delmesher::predicates {
@@ -171,6 +172,12 @@ int Predicates::in_diametral_ball(VertexId a, VertexId b, VertexId c, VertexId p
 }
 
 int Predicates::dihedral_sign(VertexId a, VertexId b, VertexId c, VertexId d) {
+  const int s = filters::dihedral(points_.approximation(a), points_.approximation(b),
+                                  points_.approximation(c), points_.approximation(d));
+  if (s != 0) {
+    ++counters.filter;
+    return s;
+  }
   const VertexId v[] = {a, b, c, d};
   return sign(polynomials::Dihedral{}, v);
 }
