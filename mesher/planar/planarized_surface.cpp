@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesher/base/sort_unique.h"
 #include "mesher/geometry/box_tree.h"
 #include "mesher/planar/facet_laws.h"
 #include "mesher/planar/group_planes.h"
@@ -148,8 +149,28 @@ class Planarizer {
     }
     if (!good) return false;
     Predicates predicates(points);
-    return keeps_orientations(predicates) && groups_are_planar(predicates) &&
-           meets_nothing_new(predicates) && facets_keep_laws(points, predicates);
+    if (!keeps_orientations(predicates) || !groups_are_planar(predicates)) return false;
+    support_groups(points);
+    return meets_nothing_new(predicates) && facets_keep_laws(points, predicates);
+  }
+  // What lies in one plane of a group is not to be computed again: coordinates of points on planes
+  // are long.
+  void support_groups(PointStore& points) const {
+    std::vector<std::pair<VertexId, PlaneId>> on;
+    for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
+      if (!growth_.is_group(g)) continue;
+      for (const std::uint32_t t : growth_.groups()[g].triangles) {
+        for (const VertexId v : flat_[t]) on.emplace_back(v, g);
+      }
+    }
+    sort_unique(on);
+    std::vector<PlaneId> groups;
+    for (auto first = on.begin(); first != on.end();) {
+      groups.clear();
+      const VertexId v = first->first;
+      for (; first != on.end() && first->first == v; ++first) groups.push_back(first->second);
+      points.set_supports(v, groups, {});
+    }
   }
   bool parallel(const std::array<std::uint32_t, 3>& p) const {
     const auto n = [&](std::size_t i) { return planarized_.planes[p[i]].normal; };
