@@ -66,18 +66,15 @@ void MissingSubsegments::queue_destroyed(VertexId v) {
     for (int k = 0; k < 3; ++k) {
       // Each edge of the boundary has two faces, which traverse it in both directions.
       const VertexId a = mesh_.vertex(t, kFace[f][k]), b = mesh_.vertex(t, kFace[f][(k + 1) % 3]);
-      if (a < b) kept_.push_back(pair_key(a, b));
+      if (a < b && find(a, b) != kNone) kept_.push_back(pair_key(a, b));
     }
   }
   std::sort(kept_.begin(), kept_.end());
   for (const TetId t : mesh_.cavity()) {
     for (const auto& e : kEdge) {
       const VertexId a = mesh_.vertex(t, e[0]), b = mesh_.vertex(t, e[1]);
-      if (chains_.valence(a) == 0 || chains_.valence(b) == 0) continue;
-      const std::uint64_t key = pair_key(a, b);
-      if (std::binary_search(kept_.begin(), kept_.end(), key)) continue;
-      const std::uint32_t n = by_ends_.get(key, kNone);
-      if (n == kNone) continue;
+      const std::uint32_t n = find(a, b);
+      if (n == kNone || std::binary_search(kept_.begin(), kept_.end(), pair_key(a, b))) continue;
       if (queue_.back() != n) queue_.push_back(n);
     }
   }

@@ -40,13 +40,18 @@ class MissingSubsegments {
   friend struct MissingSubsegmentsBreaker;  // of the tests of validate()
 
   void remember(std::uint32_t n);
+  // The subsegment that has, or has had, these ends; or kNone.
+  std::uint32_t find(VertexId a, VertexId b) const {
+    if (chains_.valence(a) == 0 || chains_.valence(b) == 0) return kNone;
+    return by_ends_.get(pair_key(a, b), kNone);
+  }
   void queue_destroyed(VertexId v);
 
   Tetrahedrization& mesh_;
   const Chains& chains_;
   FlatMap by_ends_;                  // end vertices -> node; empty as long as none was missing
   std::deque<std::uint32_t> queue_;  // nodes
-  std::vector<std::uint64_t> kept_;  // scratch
+  std::vector<std::uint64_t> kept_;  // of queue_destroyed()
 };
 
 }  // namespace delmesher::cdt

@@ -22,7 +22,8 @@ class ReferenceFinder {
   VertexId find(VertexId a, VertexId b);
 
  private:
-  bool meets(VertexId a, VertexId b, VertexId p, VertexId q, VertexId r);
+  class Passing;
+  bool meets(Passing& passing, int face);
   void visit(TetId t);
   void consider(VertexId v, VertexId a, VertexId b, double length, VertexId& best,
                 double& best_sine) const;
@@ -31,7 +32,8 @@ class ReferenceFinder {
   Predicates& predicates_;
   const PointStore& points_;
   Control& control_;
-  std::vector<std::uint32_t> mark_;  // by tetrahedron: epoch_ if the walk has been there
+  std::vector<std::uint32_t> mark_;        // by tetrahedron: epoch_ if the walk has been there
+  std::vector<std::uint32_t> considered_;  // by vertex: epoch_ if it has been
   std::uint32_t epoch_ = 0;
   std::vector<TetId> crossed_;
 };
