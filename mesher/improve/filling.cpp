@@ -125,13 +125,15 @@ Filling::Circumcentre Filling::circumcentre(TetId t) const {
   return result;
 }
 
-// Queues t if it is too large.
+// Queues t if it is too large. Cavities ask for balls again and again.
 void Filling::note(TetId t) {
   version_.resize(state_.mesh.slots(), 0);
+  ball_.resize(state_.mesh.slots());
   ++version_[t];
+  ball_[t] = circumcentre(t);
   if (!state_.counts(t)) return;
   const double size = mean_size(t);
-  const double ratio = circumcentre(t).squared_radius / (size * size);
+  const double ratio = ball_[t].squared_radius / (size * size);
   if (ratio > 1 && std::isfinite(ratio)) queue_.push({ratio, t, version_[t]});
 }
 
@@ -160,24 +162,27 @@ bool Filling::sees(TetId t, int i, const Vec3& x) const {
 }
 
 bool Filling::is_in_ball(TetId t, const Vec3& x) const {
-  const Circumcentre c = circumcentre(t);
+  const Circumcentre& c = ball_[t];
   const Vec3 y = subtract(x, state_.position(state_.mesh.tet(t)[0]));
   return c.squared_radius == 0 || dot(y, y) < 2 * dot(c.from_first, y);
 }
 
 // The cavity becomes what hangs together with `start`, with no facet between, of the tetrahedra
-// that belong to it.
+// that belong to it. Each is asked once.
 template <class Belongs>
 void Filling::collect(TetId start, const Belongs& belongs) {
   const MeshTopology& mesh = state_.mesh;
-  operation_.begin({kNone, kNone}, {kNone, kNone});
-  operation_.add(start, Judge());
-  for (std::size_t n = 0; n < operation_.cavity().size(); ++n) {
-    const TetId t = operation_.cavity()[n];
+  asked_.resize(mesh.slots(), 0);
+  next_epoch(asked_epoch_, asked_);
+  cavity_.assign(1, start);
+  asked_[start] = asked_epoch_;
+  for (std::size_t n = 0; n < cavity_.size(); ++n) {
+    const TetId t = cavity_[n];
     for (int i = 0; i < 4; ++i) {
       const TetId u = mesh.neighbor(t, i);
-      const bool open = u != kNone && !operation_.contains(u) && mesh.facet(t, i) == kNone;
-      if (open && belongs(u)) operation_.add(u, Judge());
+      if (u == kNone || asked_[u] == asked_epoch_ || mesh.facet(t, i) != kNone) continue;
+      asked_[u] = asked_epoch_;
+      if (belongs(u)) cavity_.push_back(u);
     }
   }
 }
@@ -193,7 +198,7 @@ bool Filling::cut_back(TetId start, const Vec3& x) {
   const MeshTopology& mesh = state_.mesh;
   mark_.resize(mesh.slots(), 0);
   next_epoch(epoch_, mark_);
-  work_ = operation_.cavity();
+  work_ = cavity_;
   for (const TetId t : work_) mark_[t] = epoch_;
   const auto is_left = [&](TetId u) { return mark_[u] == epoch_; };
   bool any = false;
@@ -223,6 +228,7 @@ double Filling::size_at(std::span<const TetId> cavity, const Vec3& x) const {
   double size = allowed_at(x, state_.mesh.region(cavity.front()));
   for (const TetId t : cavity) {
     for (const VertexId v : state_.mesh.tet(t)) {
+      if (size_[v] >= size) continue;  // most, and the root takes long
       size = std::min(size, size_[v] + kGrowth * distance(x, state_.position(v)));
     }
   }
@@ -251,12 +257,12 @@ bool Filling::insert(TetId start, const Vec3& x) {
   constexpr double kMuch = 0.5;
   if (!has_room({&start, 1}, x, kMuch * size_at({&start, 1}, x))) return false;
   grow(start, x);
-  const double size = size_at(operation_.cavity(), x);
+  const double size = size_at(cavity_, x);
+  if (!has_room(cavity_, x, size) || !cut_back(start, x)) return false;
+  operation_.begin({kNone, kNone}, {kNone, kNone});
+  for (const TetId t : cavity_) operation_.add(t, Judge());
   // All vertices stay.
-  if (!has_room(operation_.cavity(), x, size) || !cut_back(start, x) ||
-      !operation_.find_change([](VertexId) { return false; })) {
-    return false;
-  }
+  if (!operation_.find_change([](VertexId) { return false; })) return false;
   const Place place = state_.new_place(x, size * State::kGrid);
   const auto is_positive = [&](const auto& face) {
     return state_.is_positive_with(state_.mesh.tet(face.tet), face.face, place);
@@ -266,7 +272,7 @@ bool Filling::insert(TetId start, const Vec3& x) {
     return false;
   }
   size_.push_back(size);
-  state_.insert(place, operation_.cavity(), operation_.created());
+  state_.insert(place, cavity_, operation_.created());
   for (const TetId t : state_.mesh.created()) note(t);
   return true;
 }
@@ -281,8 +287,7 @@ void Filling::run() {
     queue_.pop();
     if (!state_.mesh.alive(next.tet) || version_[next.tet] != next.version) continue;
     control_.poll(state_.mesh.vertices(), 0);
-    const Vec3 x =
-        add(state_.position(state_.mesh.tet(next.tet)[0]), circumcentre(next.tet).from_first);
+    const Vec3 x = add(state_.position(state_.mesh.tet(next.tet)[0]), ball_[next.tet].from_first);
     const TetId start = locate(next.tet, x);
     if (start != kNone && insert(start, x)) ++points;
   }

@@ -86,9 +86,12 @@ class Filling {
   double most_points_ = 0;
   std::vector<double> size_;            // per vertex
   std::vector<std::uint32_t> version_;  // per slot: counts the tetrahedra that were there
+  std::vector<Circumcentre> ball_;      // per slot: of the tetrahedron there, since note()
   std::priority_queue<Candidate> queue_;
   InsertPoint<Judge> operation_;
-  std::vector<TetId> work_;
+  std::vector<TetId> cavity_, work_;
+  std::vector<std::uint32_t> asked_;  // per slot: asked_epoch_ if collect() has
+  std::uint32_t asked_epoch_ = 0;
   std::vector<std::uint32_t> mark_;  // per slot: epoch_ if cut_back() has left it
   std::uint32_t epoch_ = 0;
 };
