@@ -237,7 +237,7 @@ bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
     const float before = score;
     for (const Vec3& x :
          {add_scaled(at, step * longest, direction), add_scaled(at, step, centre)}) {
-      const float here = worst_at(wedge, x);
+      const float here = worst_at(wedge, x, score);
       if (here <= score) continue;
       score = here;
       best = x;
@@ -248,12 +248,14 @@ bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
 }
 
 // Squared: the sine of the smallest dihedral angle of the new tetrahedra with the point at x; 0 if
-// one is not positive. (Other measures are beyond the range of floats where all is flat.)
-float Relocation::worst_at(const Wedge& wedge, const Vec3& x) const {
+// it is not above `best`, or one is not positive. (Other measures are beyond the range of floats
+// where all is flat; kNotCounted leaves them out.)
+float Relocation::worst_at(const Wedge& wedge, const Vec3& x, float best) const {
   float worst = HUGE_VALF;
   for (const CreatedTet& tet : wedge.created) {
-    const Quality q = state_.quality_with(tet.vertices, corner_of(wedge.point, tet), x);
-    if (!(q.dihedral > 0)) return 0;
+    const Quality q =
+        state_.quality_with(tet.vertices, corner_of(wedge.point, tet), x, kNotCounted);
+    if (!(q.dihedral > best)) return 0;
     worst = std::min(worst, q.dihedral);
   }
   return worst;
