@@ -206,8 +206,16 @@ Quality Insertion::Judge::value_of(TetId t, int i) const {
 }
 
 std::vector<Insertion::Face>::const_iterator Insertion::worst() {
-  return std::ranges::min_element(operation_.skin(), {},
-                                  [&](const Face& face) { return state_.score(face.value); });
+  const std::vector<Face>& skin = operation_.skin();
+  auto worst = skin.begin();
+  float least = HUGE_VALF;
+  for (auto face = skin.begin(); face != skin.end(); ++face) {
+    const float score = state_.score(face->value);
+    if (!(score < least)) continue;
+    least = score;
+    worst = face;
+  }
+  return worst;
 }
 
 // Moves x to where the worst face is better.

@@ -68,8 +68,8 @@ class State final : public ExactMesh {
 
   // By the worst of what is measured: 1 and more is good enough.
   float score(const Quality& q) const {
-    return std::min({q.dihedral * per_target_.dihedral, q.face * per_target_.face,
-                     q.gamma * per_target_.gamma});
+    return std::min(std::min(q.dihedral * per_target_.dihedral, q.face * per_target_.face),
+                    q.gamma * per_target_.gamma);
   }
   // What is not measured by its shape is mended with this score: a dihedral angle of 12.2 degrees.
   static constexpr float kMended = 0.32F;
