@@ -239,6 +239,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"groups", s.planar_groups},
                     {"given_facets", s.given_facets},
                     {"bound", s.planar_bound},
+                    {"lines_lost", s.lines_lost},
                     {"deviation", s.planar_deviation},
                     {"diagonals", s.diagonals},
                     {"diagonals_missing", s.diagonals_missing},

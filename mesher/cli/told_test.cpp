@@ -290,10 +290,10 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["refined"]), mesh);
   EXPECT_EQ(keys(json["final"]), mesh);
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
-  EXPECT_EQ(
-      keys(json["planar"]),
-      "facets groups given_facets bound deviation diagonals diagonals_missing spared given_up "
-      "limit ");
+  EXPECT_EQ(keys(json["planar"]),
+            "facets groups given_facets bound lines_lost deviation diagonals diagonals_missing "
+            "spared given_up "
+            "limit ");
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");

@@ -45,6 +45,8 @@ struct Statistics {
   // Where facets were made planar, in input units: the largest distance of a vertex as given from
   // the plane of a facet, and the bound on it.
   double planar_deviation = 0, planar_bound = 0;
+  // With a tolerance: lines, as Options::feature has them, that are within planar facets.
+  std::uint64_t lines_lost = 0;
   // With Options::planar 0 the facets are planar only while they are refined: edges of the surface
   // as given within them, which come back afterwards; how many found no place; and whether for
   // that, or because the mesh did not fit the surface as given, it was meshed anew without planar

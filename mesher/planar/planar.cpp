@@ -76,6 +76,28 @@ PointStore vertices_of(const PointStore& points, std::size_t count) {
   return vertices;
 }
 
+// Edges of the surface as given that bend by so many degrees, and are not edges between facets of
+// the planarized one.
+std::uint64_t lines_lost(const Surface& given, const SurfaceTopology& planarized, double degrees) {
+  PointStore points;
+  for (const Vec3& p : given.vertices) points.add_explicit(p[0], p[1], p[2]);
+  Predicates predicates(points);
+  const double cosine = predicates::cosine_squared(degrees);
+  const HalfEdgeGroups edges(given.triangles, given.vertices.size());
+  std::uint64_t lost = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto corner = [&](std::uint32_t h, std::uint32_t k) {
+      return given.triangles[h / 3][(h + k) % 3];
+    };
+    const std::uint32_t h = edges[e][0], g = edges[e][1];
+    const VertexId a = corner(h, 0), b = corner(h, 1);
+    const std::uint32_t edge = edge_between(planarized, a, b);
+    if (edge != kNone && planarized.edge_is_flat[edge] == 0) continue;
+    if (!predicates.bends_below(corner(h, 2), corner(g, 2), a, b, cosine)) ++lost;
+  }
+  return lost;
+}
+
 }  // namespace
 
 bool goes_back(const Options& options) {
@@ -94,6 +116,9 @@ PlanarizedSurface enter_surface(const Surface& surface, const ValidityResult& va
       planarize(outwards, bound, session.control, returns ? Retriangulate::no : Retriangulate::yes);
   SurfaceTopology topology =
       planarized_topology(outwards, planarized, session.points, session.predicates);
+  if (session.options.tolerance != 0 && !planarized.planes.empty() && !returns) {
+    planarized.lines_lost = lines_lost(outwards, topology, session.options.feature);
+  }
   if (planarized.planes.empty()) {
     session.surface.enter_given(std::move(topology));
   } else {

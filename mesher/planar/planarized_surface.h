@@ -32,6 +32,8 @@ struct PlanarizedSurface {
   double bound = 0;                // that was asked for
   std::uint64_t groups = 0;        // of more than one triangle, some not on the plane as given
   std::uint64_t given_facets = 0;  // of the surface as given
+  // With Options::tolerance: edges that bend by Options::feature or more, and are within facets.
+  std::uint64_t lines_lost = 0;
   double deviation = 0;     // largest distance of a vertex from the plane of one of its groups
   double displacement = 0;  // largest distance of a vertex from where it was
 };

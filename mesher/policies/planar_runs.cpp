@@ -1,6 +1,7 @@
 #include "mesher/policies/planar_runs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -9,12 +10,13 @@
 namespace delmesher::policies {
 namespace {
 
-constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
+using Defects = std::array<std::uint64_t, 3>;
 
-// Of the mesh as written, and of its exact coordinates alone. Compared in this order.
-std::pair<std::uint64_t, std::uint64_t> defects(const Result& result) {
+// Of the mesh as written, of its surface, and of its exact coordinates alone. Compared in this
+// order.
+Defects defects(const Result& result) {
   const Statistics& s = result.statistics;
-  return {s.rounding_inverted + s.rounding_flat, s.rounding_inexact};
+  return {s.rounding_inverted + s.rounding_flat, s.lines_lost, s.rounding_inexact};
 }
 
 }  // namespace
@@ -22,7 +24,7 @@ std::pair<std::uint64_t, std::uint64_t> defects(const Result& result) {
 bool PlanarRuns::good_enough(const Result& best) {
   const Statistics& s = best.statistics;
   if (!best.status.ok()) return !s.planar_given_up;
-  return s.planar_groups == 0 || defects(best) == kNoDefects;
+  return s.planar_groups == 0 || defects(best) == Defects{};
 }
 
 bool PlanarRuns::applies(Rung rung) const {

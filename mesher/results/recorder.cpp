@@ -55,6 +55,7 @@ void Recorder::planar(const PlanarizedSurface& planarized, const ValidityResult&
   s.given_facets = planarized.given_facets;
   s.planar_deviation = planarized.deviation;
   s.planar_bound = planarized.bound;
+  s.lines_lost = planarized.lines_lost;
 }
 
 void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
