@@ -811,6 +811,14 @@ const Damage kDamages[] = {
        const std::int64_t one = region_called(t, "core"), other = region_called(t, "right");
        std::ranges::replace(t.mesh.regions, one, other);
      }},
+    {"the largest region with another number, and its name", "regions",
+     [](Told& t) {
+       const std::int64_t one = region_called(t, "core"), other = region_called(t, "right");
+       for (std::int64_t& region : t.mesh.regions) {
+         region = region == one ? other : region == other ? one : region;
+       }
+       std::swap(t.mesh.names[{3, one}], t.mesh.names[{3, other}]);
+     }},
     {"a tetrahedron of another region", "regions",
      [](Told& t) { t.mesh.regions[7] = t.mesh.regions[7] == 1 ? 2 : 1; }},
     {"names of two regions exchanged", "regions",

@@ -524,6 +524,7 @@ class Parts {
                              ", and so is another part");
       }
     }
+    check_order(part_of);
     result_.regions.checked = region_of.size();
     result_.regions.figures.emplace_back("parts", static_cast<double>(region_of.size()));
     if (!mesh_.regions.empty()) return;
@@ -531,6 +532,23 @@ class Parts {
       result_.regions.fail("the file has no regions, and the input has several");
     } else {
       result_.regions.notes.emplace_back("the file has no regions");
+    }
+  }
+
+  // The largest part has the least number; those of one volume are in any order.
+  void check_order(const std::map<std::int64_t, Index>& part_of) {
+    std::map<Index, double> volumes;
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      const Interval volume = exact::rough_volume6(points_, complex_.tetrahedra[t]);
+      volumes[part_.find(t)] += volume.middle();
+    }
+    double least = HUGE_VAL;
+    for (const auto& [region, part] : part_of) {
+      if (volumes.at(part) > least * (1 + kEqualVolumes)) {
+        result_.regions.fail("region " + std::to_string(region) +
+                             " is larger than one of a smaller number");
+      }
+      least = std::min(least, volumes.at(part));
     }
   }
 
