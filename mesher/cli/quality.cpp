@@ -338,15 +338,24 @@ std::vector<std::string> edge_warnings(const Result& result, const Options& opti
   std::vector<std::string> warnings = warnings_of(mesh, everywhere, [&](std::size_t t) {
     return options.region != Region::interior || mesh.inside.empty() || mesh.inside[t] != 0;
   });
-  for (const RegionSize& size : options.region_sizes) {
+  const auto warn_in = [&](const std::string& name, double max_edge, const char* option,
+                           const auto& is_meant) {
     const auto is_there = [&](std::size_t t) {
-      const auto region = static_cast<std::size_t>(mesh.regions[t] - 1);
-      return name_of_region(result.regions[region], label_names) == size.region;
+      return is_meant(result.regions[static_cast<std::size_t>(mesh.regions[t] - 1)]);
     };
-    for (const std::string& warning :
-         warnings_of(mesh, {size.max_edge, "--max-edge", {}, true}, is_there)) {
-      warnings.push_back(size.region + ": " + warning);
+    for (const std::string& warning : warnings_of(mesh, {max_edge, option, {}, true}, is_there)) {
+      warnings.push_back(name + ": " + warning);
     }
+  };
+  for (const RegionSize& size : options.region_sizes) {
+    warn_in(size.region, size.max_edge, "--max-edge", [&](const MeshRegion& region) {
+      return name_of_region(region, label_names) == size.region;
+    });
+  }
+  for (const MeshRegion& bounded : result.regions) {
+    if (bounded.max_edge == 0) continue;
+    warn_in(name_of_region(bounded, label_names), bounded.max_edge, "the volume of its point",
+            [&](const MeshRegion& region) { return &region == &bounded; });
   }
   return warnings;
 }
