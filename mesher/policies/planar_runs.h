@@ -9,12 +9,12 @@ namespace delmesher::policies {
 
 // Facets were made planar by moving vertices. The mesh is written with the vertices as given, which
 // may invert tetrahedra that are thinner than the vertices moved. If inverted or flat ones are
-// left, facets have swallowed lines, or repairs gave up the exact coordinates, the surface is meshed again: as with --planar 0,
-// so that the mesh goes back to the surface as given, if the options allow that; and then without
-// planar facets. The best result counts. With --planar 0 the last of these is the only one; it is
-// run as well if the first run failed because no way led back to the surface as given
-// (Statistics::planar_given_up). The time limit holds for all runs together, the other limits for
-// each.
+// left, facets have swallowed lines, or repairs gave up the exact coordinates, the surface is
+// meshed again: as with --planar 0, so that the mesh goes back to the surface as given, if the
+// options allow that; and then without planar facets. The best result counts. With --planar 0 the
+// last of these is the only one; it is run as well if the first run failed because no way led back
+// to the surface as given (Statistics::planar_given_up). The time limit holds for all runs
+// together, the other limits for each.
 class PlanarRuns {
  public:
   // The first run begins now, with these options.
