@@ -692,6 +692,11 @@ TEST(RegionPoints, ThatAreNowhereOrContradictEachOther) {
   EXPECT_EQ(wrong.status.message,
             "region point 4 calls the region \"a\" that another one calls \"b\": is a wall missing "
             "between them?");
+  delmesher::CheckOptions check;
+  check.want_regions = true;
+  check.region_points = options.region_points;
+  const delmesher::SurfaceReport report = delmesher::check_surface(builder.surface(), check);
+  EXPECT_EQ(std::ranges::count(report.warnings, wrong.status.message), 1);
 }
 
 // In other units, and beside the origin.

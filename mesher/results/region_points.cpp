@@ -74,6 +74,7 @@ std::string number_of(std::size_t n) {
 Status enter_region_points(std::span<const RegionPoint> given, const ConformingMesh& mesh,
                            PointStore& points, std::vector<MeshRegion>& regions,
                            std::vector<std::string>& warnings) {
+  if (given.empty()) return {};
   const std::vector<RegionId> where = Finder(given, mesh, points).run();
   for (std::size_t n = 0; n < given.size(); ++n) {
     const RegionPoint& p = given[n];

@@ -260,24 +260,45 @@ class Parts {
     });
   }
 
-  void sum_up(UnionFind& shells) {
-    std::map<Index, ExactSum> volumes;
-    std::map<Index, Index> first;  // side
+  // Sides without tetrahedra that are connected around edges.
+  struct Shell {
+    std::vector<Index> sides;
+    ExactSum volume;            // positive if what is on its side is within
+    std::vector<Index> points;  // region points of the part within
+  };
+
+  void sum_up(UnionFind& sets) {
     for (Index n = 0; n < triangles_.size(); ++n) {
       for (const bool behind : {false, true}) {
         if (!is_empty(n, behind)) continue;
-        const Index shell = shells.find(side(n, behind));
-        add_side(side(n, behind), volumes[shell]);
-        first.try_emplace(shell, side(n, behind));
+        Shell& shell = shells_[sets.find(side(n, behind))];
+        shell.sides.push_back(side(n, behind));
+        add_side(side(n, behind), shell.volume);
       }
     }
-    for (const auto& [shell, volume] : volumes) {
-      if (volume.sign() <= 0) continue;
-      const Index n = first[shell] / 2;
-      const bool behind = first[shell] % 2 != 0;
-      if (!is_wanted(n, behind, shell, volumes, shells)) continue;
-      result_.parts.fail("a part that is bounded by " + name(triangles_[n]) + " has no tetrahedra");
+    find_points_of_shells();
+    for (const auto& [number, shell] : shells_) {
+      if (shell.volume.sign() <= 0 || !is_wanted(shell)) continue;
+      result_.parts.fail("a part that is bounded by " + name(triangles_[shell.sides.front() / 2]) +
+                         " has no tetrahedra");
     }
+  }
+
+  std::vector<Face> faces_of(const Shell& shell) const {
+    std::vector<Face> faces;
+    for (const Index s : shell.sides) faces.push_back(triangles_[s / 2].corners);
+    return faces;
+  }
+
+  // The smallest with a part within that surrounds something; null: none does.
+  template <class Surrounds>
+  Shell* innermost(const Surrounds& surrounds) {
+    Shell* found = nullptr;
+    for (auto& [number, shell] : shells_) {
+      const bool smaller = found == nullptr || difference(shell.volume, found->volume, 0) < 0;
+      if (shell.volume.sign() > 0 && smaller && surrounds(shell)) found = &shell;
+    }
+    return found;
   }
 
   // --- points that tell of their region
@@ -308,34 +329,14 @@ class Parts {
     const std::string name = name_by_points(points_of(t));
     return name.empty() ? called(solids_->around(complex_.tetrahedra[t])) : name;
   }
-  // Those in the part within a shell, which the mesh does not have: within no smaller shell.
-  std::vector<Index> points_within(Index outer, const std::map<Index, ExactSum>& volumes,
-                                   UnionFind& shells) const {
-    std::vector<Index> points;
+  // Those in no tetrahedron may be in a part that the mesh does not have.
+  void find_points_of_shells() {
     for (Index n = 0; n < input_.region_points.size(); ++n) {
       if (!region_points_.around(n).empty()) continue;
-      Index innermost = kNone;
-      for (const auto& [shell, size] : volumes) {
-        const bool smaller = innermost == kNone || difference(size, volumes.at(innermost), 0) < 0;
-        if (size.sign() > 0 && smaller &&
-            region_points_.is_within(n, faces_of_shell(shell, shells))) {
-          innermost = shell;
-        }
-      }
-      if (innermost == outer) points.push_back(n);
+      Shell* shell = innermost(
+          [&](const Shell& other) { return region_points_.is_within(n, faces_of(other)); });
+      if (shell != nullptr) shell->points.push_back(n);
     }
-    return points;
-  }
-  std::vector<Face> faces_of_shell(Index shell, UnionFind& shells) const {
-    std::vector<Face> faces;
-    for (Index n = 0; n < triangles_.size(); ++n) {
-      for (const bool behind : {false, true}) {
-        if (is_empty(n, behind) && shells.find(side(n, behind)) == shell) {
-          faces.push_back(triangles_[n].corners);
-        }
-      }
-    }
-    return faces;
   }
 
   // --- which parts are asked for
@@ -369,57 +370,44 @@ class Parts {
   }
 
   // Is the part with this shell around it, which the mesh does not have, to be there?
-  bool is_wanted(Index n, bool behind, Index shell, const std::map<Index, ExactSum>& volumes,
-                 UnionFind& shells) const {
-    const std::vector<Index> points = points_within(shell, volumes, shells);
-    if (std::ranges::any_of(points, [&](Index p) { return input_.region_points[p].is_hole; })) {
+  bool is_wanted(const Shell& shell) {
+    if (std::ranges::any_of(shell.points,
+                            [&](Index p) { return input_.region_points[p].is_hole; })) {
       return false;
     }
     if (!asks_for_some()) return true;
     if (!promise_.region_names.empty()) {
-      const std::string name = name_by_points(points);
-      return is_asked_for(name.empty() ? called(solids_->beside(n, behind)) : name);
+      const std::string name = name_by_points(shell.points);
+      const Index first = shell.sides.front();
+      return is_asked_for(name.empty() ? called(solids_->beside(first / 2, first % 2 != 0)) : name);
     }
     ExactSum volume;
     exact::Volume6 volume6;
     for (const Tet& tet : complex_.tetrahedra) volume += volume6(points_, tet);
     const double rounding = kEqualVolumes * volume.value(0);
-    if (!(difference(volumes.at(shell), volume, 0) > rounding)) return false;
-    return difference(without_cavities(shell, volumes, shells), volume, 0) > rounding;
+    if (!(difference(shell.volume, volume, 0) > rounding)) return false;
+    return difference(without_cavities(shell), volume, 0) > rounding;
+  }
+
+  // Does a shell surround what is on this side of a triangle?
+  bool surrounds(const Shell& shell, Index what) const {
+    Index own = kNone;
+    for (Index n = 0; n < shell.sides.size(); ++n) {
+      if (shell.sides[n] / 2 == what / 2) own = n;
+    }
+    return RayTarget(points_, faces_of(shell))
+        .surrounds(triangles_[what / 2].corners, what % 2 != 0, own);
   }
 
   // The volume of the part within a shell: shells that it surrounds, and no smaller one does, are
   // those of cavities.
-  ExactSum without_cavities(Index outer, const std::map<Index, ExactSum>& volumes,
-                            UnionFind& shells) const {
-    std::map<Index, std::vector<Index>> sides;
-    for (Index n = 0; n < triangles_.size(); ++n) {
-      for (const bool behind : {false, true}) {
-        if (is_empty(n, behind)) sides[shells.find(side(n, behind))].push_back(side(n, behind));
-      }
-    }
-    const auto surrounds = [&](Index shell, Index what) {
-      std::vector<Face> faces;
-      Index own = kNone;
-      for (const Index s : sides.at(shell)) {
-        if (s / 2 == what / 2) own = static_cast<Index>(faces.size());
-        faces.push_back(triangles_[s / 2].corners);
-      }
-      return RayTarget(points_, std::move(faces))
-          .surrounds(triangles_[what / 2].corners, what % 2 != 0, own);
-    };
-    ExactSum sum = volumes.at(outer);
-    for (const auto& [shell, volume] : volumes) {
-      if (volume.sign() >= 0) continue;
-      Index innermost = kNone;
-      for (const auto& [other, size] : volumes) {
-        const bool smaller = innermost == kNone || difference(size, volumes.at(innermost), 0) < 0;
-        if (size.sign() > 0 && smaller && surrounds(other, sides.at(shell).front())) {
-          innermost = other;
-        }
-      }
-      if (innermost != outer) continue;
-      for (const Index s : sides.at(shell)) add_side(s, sum);
+  ExactSum without_cavities(const Shell& outer) {
+    ExactSum sum = outer.volume;
+    for (const auto& [number, cavity] : shells_) {
+      if (cavity.volume.sign() >= 0) continue;
+      const Index what = cavity.sides.front();
+      if (innermost([&](const Shell& other) { return surrounds(other, what); }) != &outer) continue;
+      for (const Index s : cavity.sides) add_side(s, sum);
     }
     return sum;
   }
@@ -646,6 +634,7 @@ class Parts {
   std::unique_ptr<Solids> solids_;
   std::map<Face, Index> by_corners_;
   UnionFind part_;
+  std::map<Index, Shell> shells_;
   RegionPoints region_points_;
   std::map<Index, std::vector<Index>> points_of_;  // of parts
   std::vector<Face> outer_faces_;
