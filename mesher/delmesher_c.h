@@ -17,7 +17,7 @@ const char* delmesher_version(void);
 
 /* A triangulated surface, which stays the caller's: n_vertices times x y z, n_triangles times three
  * numbers of vertices from 0, counter-clockwise seen from outside; a label for each triangle, or
- * NULL. */
+ * NULL. Vertices of no triangle become vertices of the mesh. */
 typedef struct {
   const double* vertices;
   size_t n_vertices;

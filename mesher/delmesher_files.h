@@ -109,6 +109,16 @@ struct SizeFieldResult {
 // and corners of elements become the sources.
 SizeFieldResult read_size_field(const std::string& path);
 
+struct PointsResult {
+  std::string error;  // "file:line: reason" or "file: reason"; empty if read
+  std::vector<std::array<double, 3>> points;
+  bool ok() const { return error.empty(); }
+};
+
+// Lines "X Y Z", as those of a size field. Further vertices of a surface become vertices of its
+// mesh.
+PointsResult read_points(const std::string& path);
+
 struct ExactResult {
   std::string error;  // "file:line: reason"; empty if read
   ExactRecord record;

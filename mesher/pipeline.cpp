@@ -34,6 +34,7 @@
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
 #include "mesher/surface/complex.h"
+#include "mesher/surface/loose_points.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher {
@@ -366,9 +367,7 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
   return {};
 }
 
-// The constrained Delaunay tetrahedrization of the surface alone.
-cdt::CdtResult plain_cdt(Session& s) {
-  cdt::CdtInput input = enrich::plain_input(s.surface.topology());
+cdt::CdtResult plain_cdt(cdt::CdtInput input, Session& s) {
   if (is_complex(s)) input.partition = cdt::Partition::regions;
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
   return cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
@@ -386,7 +385,8 @@ struct Keeping {
   bool good_enough() const { return missing == 0; }
 
   void tetrahedrize() {
-    cdt::CdtResult cdt = plain_cdt(s);
+    cdt::CdtResult cdt =
+        plain_cdt(enrich::plain_input(s.surface.topology(), s.points, s.predicates), s);
     recorder.tetrahedrized(cdt);
     mesh = std::move(cdt.mesh);
     s.control.enter(Phase::improve);
@@ -485,7 +485,7 @@ Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder,
 // Without refinement: the surface alone.
 Status surface_alone(const Surface& surface, Session& s, Recorder& recorder) {
   if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
-  cdt::CdtResult cdt = plain_cdt(s);
+  cdt::CdtResult cdt = plain_cdt(enrich::plain_input(s.surface.topology()), s);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
   round_and_record(std::move(cdt.mesh), s, recorder);
@@ -592,6 +592,7 @@ Result run_within(const Surface& surface, const Options& options, const LocalFra
       return {StatusCode::invalid_options, defect};
     }
     remeshed = remesh::remesh(surface, remesh::goals_of(options), frame, control);
+    if (remeshed.status.ok()) add_loose_points(surface, remeshed.surface);
     return remeshed.status;
   });
   const auto& seconds = control.phase_seconds();

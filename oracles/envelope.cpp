@@ -11,6 +11,7 @@
 #include "oracles/base/box_tree.h"
 #include "oracles/base/triangle_distance.h"
 #include "oracles/base/vectors.h"
+#include "oracles/mesh/loose_points.h"
 #include "oracles/shared_data.h"
 #include "oracles/surface/input_surface.h"
 #include "oracles/tolerance.h"
@@ -534,6 +535,9 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   if (own.triangles.empty()) {
     broken(report, "own-surface", "the tetrahedra have no boundary");
     return {};
+  }
+  if (tolerance != 0) {
+    for (const Index v : loose_points(input)) own.vertices.push_back(input.vertices[v]);
   }
   VerifyOptions as_given = options;
   Promise& promise = as_given.promised;

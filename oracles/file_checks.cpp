@@ -88,6 +88,7 @@ std::string SolidStep::run() {
     if (exact_ == nullptr) add(surface_not_decided("conformity"));
     return {};
   }
+  check_points(complex, options_.promised.planar_share() * diagonal_);
   const bool solid_only =
       fills(complex, surface,
             std::max(kRoundedUlps * ulp_, options_.promised.planar_share() * diagonal_));
@@ -174,11 +175,7 @@ void SolidStep::check_surface(const TetComplex& complex, const Neighbours& neigh
 void SolidStep::check_surface_kept(const ConformityResult& conformity, Index first) {
   OracleReport kept = check_kept(input_, mesh_, conformity.faces, first);
   if (kept.violations > 0 && !options_.promised.strict) {
-    report_.unproven.push_back("--surface keep (" + std::to_string(kept.violations) +
-                               " triangles are split)");
-    kept.promised = false;
-    kept.violations = 0;
-    kept.findings.clear();
+    say_first("--surface keep (" + std::to_string(kept.violations) + " triangles are split)", kept);
   }
   add(std::move(kept));
 }

@@ -6,6 +6,7 @@
 
 #include "oracles/files/edge_nodes.h"
 #include "oracles/mesh/edge_lengths.h"
+#include "oracles/mesh/loose_points.h"
 #include "oracles/verdict/edge_sizes.h"
 #include "oracles/verdict/verdict.h"
 
@@ -78,6 +79,27 @@ bool FileStep::check_tetrahedra(const ExactPoints& points, bool is_part, TetComp
   report_.flat = static_cast<std::uint64_t>(orientation.figure("flat").value_or(0));
   add(std::move(orientation));
   return true;
+}
+
+void FileStep::say_first(const std::string& what, OracleReport& oracle) {
+  report_.unproven.push_back(what);
+  oracle.promised = false;
+  oracle.violations = 0;
+  oracle.findings.clear();
+}
+
+// Others than delmesher promise no such vertices.
+void FileStep::check_points(const TetComplex& complex, double near) {
+  const Promise& promised = options_.promised;
+  if (promised.task == Task::cdt && !promised.keep) return;
+  OracleReport points = check_loose_points(input_, mesh_, complex, near);
+  if (points.checked == 0) return;
+  if (exact_ == nullptr && promised.points.empty() && !promised.all_regions &&
+      points.violations > 0) {
+    say_first("points of no triangle (" + std::to_string(points.violations) + " are no vertices)",
+              points);
+  }
+  add(std::move(points));
 }
 
 // A corner that chamfering cut off and that came back is not refined. Whether a long edge is at

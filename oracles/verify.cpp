@@ -143,11 +143,16 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
                    const VerifyOptions& options, VerifyReport& report,
                    const Expendable& expendable) {
   Frame frame{&input, &mesh, exact, options, expendable};
-  std::optional<Polyhedron> labelled;
+  std::optional<Polyhedron> labelled, with_points;
   if (const double degrees = options.promised.label_by_angle; degrees > 0) {
     labelled = input;
     if (std::string why = label_by_angle(*labelled, degrees); !why.empty()) return why;
     frame.input = &*labelled;
+  }
+  if (const std::vector<Position>& points = options.promised.points; !points.empty()) {
+    with_points = *frame.input;
+    with_points->vertices.insert(with_points->vertices.end(), points.begin(), points.end());
+    frame.input = &*with_points;
   }
   if (const double tolerance = options.promised.tolerance; tolerance != 0) {
     const double share = tolerance < 0 ? -tolerance : tolerance / diagonal_of(input);

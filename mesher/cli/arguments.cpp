@@ -112,6 +112,8 @@ void add_options_of(CLI::App& app, Given& given, const std::vector<options::Valu
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
   add_label_by_angle(app, given);
+  add_file(app, command, "--points", &Command::points_file,
+           "points that become vertices of the mesh: lines X Y Z");
   add_writing(app, command);
   add_exact(app, command);
   add_chamfered(app, command, "write the chamfered surface, OFF");
@@ -319,7 +321,7 @@ std::string output_error(const Command& command, bool several,
     if (!std::filesystem::is_character_file(where(file), error)) seen.push_back(where(file));
   }
   // These files are only read, by every run.
-  for (const std::string* file : {&command.names_file, &command.sizes_file}) {
+  for (const std::string* file : {&command.names_file, &command.sizes_file, &command.points_file}) {
     if (!file->empty() && clash(*file)) return *file + kClash;
   }
   return {};

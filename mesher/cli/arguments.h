@@ -28,6 +28,7 @@ struct Command {
   std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
   std::string names_file;                              // empty: names of the input
   std::string sizes_file;                              // empty: no size field
+  std::string points_file;                             // empty: those of the input alone
   std::string defects_file;                            // of check
   double label_angle = 0;                              // 0: labels as read
   io::WriteOptions write;

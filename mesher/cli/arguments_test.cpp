@@ -477,6 +477,8 @@ TEST(Arguments, MistakesAreTwo) {
                      "out.xyz: unknown mesh format (.mesh, .msh, .vtu, .vtk, .xdmf");
   EXPECT_EQ(parse({"in.off", "-o", "a.inp", "--names", "n.txt"}).command.names_file, "n.txt");
   expect_usage_error({"in.off", "-o", "a.stl", "--names", "a.stl"}, "named twice");
+  EXPECT_EQ(parse({"in.off", "-o", "a.inp", "--points", "p.txt"}).command.points_file, "p.txt");
+  expect_usage_error({"in.off", "-o", "a.stl", "--points", "a.stl"}, "named twice");
   for (const char* none : {"--max-vertices", "--budget", "--time-limit", "--max-edge"}) {
     expect_usage_error({"in.off", "-o", "a.mesh", none, "0"}, "out of range: 0");
   }

@@ -93,6 +93,20 @@ TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");
 }
 
+TEST_F(Program, PointsBecomeVertices) {
+  write("in.poly",
+        "5 3\n0 0 0 0\n1 4 0 0\n2 0 4 0\n3 0 0 4\n4 0.5 0.625 0.75\n4\n1\n3 0 2 1\n1\n3 0 1 3\n1\n"
+        "3 0 3 2\n1\n3 1 2 3\n0\n");
+  write("points.txt", "x y z\n1,1,1\n9 9 9\n");
+  EXPECT_EQ(run("in.poly -o mesh.mesh --points points.txt --stats stats.json"), 0);
+  for (const char* line : {"\n1 1 1 0\n", "\n0.5 0.625 0.75 0\n"}) {
+    EXPECT_NE(text("mesh.mesh").find(line), std::string::npos) << text("mesh.mesh");
+  }
+  EXPECT_NE(text("err.txt").find("1 point left out: outside of the mesh"), std::string::npos);
+  EXPECT_NE(text("stats.json").find("\"points\": \"points.txt\""), std::string::npos);
+  EXPECT_EQ(run("in.poly -o mesh.mesh --points none.txt"), 3);
+}
+
 // Corners that chamfering took off come back, unrefined: the apex of a steep pyramid.
 TEST_F(Program, EdgesThatAreTooLongAreSaid) {
   write("in.off",

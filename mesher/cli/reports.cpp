@@ -92,6 +92,7 @@ Json parameters_json(const Command& command) {
       parameters["max_edge_in"][size.region] = size.max_edge;
     }
   }
+  if (!command.points_file.empty()) parameters["points"] = command.points_file;
   if (command.label_angle > 0) parameters["label_by_angle"] = command.label_angle;
   return parameters;
 }

@@ -27,6 +27,7 @@ class Runner : RunSteps {
  private:
   int read();
   int label_by_angle();
+  int add_points();
   int check();
   int mesh();
   int remesh();
@@ -50,7 +51,8 @@ int Runner::read() {
   region_points_ = std::move(input.region_points);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
-  const int code = label_by_angle();
+  int code = label_by_angle();
+  if (code == kDone) code = add_points();
   return code == kDone ? read_beside(names_, surface_.labels) : code;
 }
 
@@ -67,6 +69,15 @@ int Runner::label_by_angle() {
     names_.try_emplace(label, "face_" + std::to_string(label));
   }
   remark(command_.input + ": " + std::to_string(names_.size()) + " faces by angle");
+  return kDone;
+}
+
+// Vertices that no triangle has become vertices of the mesh.
+int Runner::add_points() {
+  if (command_.points_file.empty()) return kDone;
+  io::PointsResult read = io::read_points(command_.points_file);
+  if (!read.ok()) return fail(kUnreadable, read.error);
+  surface_.vertices.insert(surface_.vertices.end(), read.points.begin(), read.points.end());
   return kDone;
 }
 

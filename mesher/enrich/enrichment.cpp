@@ -7,6 +7,7 @@
 #include "mesher/base/sort_unique.h"
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/surface/feature_size.h"
+#include "mesher/surface/loose_points.h"
 
 namespace delmesher::enrich {
 namespace {
@@ -159,12 +160,20 @@ cdt::CdtInput plain_input(const SurfaceTopology& topology) {
   return input;
 }
 
+cdt::CdtInput plain_input(const SurfaceTopology& topology, const PointStore& points,
+                          Predicates& predicates) {
+  cdt::CdtInput input = plain_input(topology);
+  const std::vector<VertexId> loose = loose_points(topology, points, predicates);
+  input.vertices.insert(input.vertices.end(), loose.begin(), loose.end());
+  return input;
+}
+
 cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              const std::vector<std::uint8_t>& facet_kept,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,
                              const PointStore& points, Predicates& predicates, bool keep_all,
                              Control& control) {
-  cdt::CdtInput input = plain_input(topology);
+  cdt::CdtInput input = plain_input(topology, points, predicates);
   if (keep_all) add_artificial_points(chamfered, refined, points, input);
   add_complex_points(chamfered, refined, points, input);
   list_surface_points(predicates, input);
@@ -184,7 +193,7 @@ cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
 cdt::CdtInput input_as_given(const ConformingMesh& mesh, const SurfaceTopology& as_given,
                              double reach, PointStore& points, Predicates& predicates,
                              Control& control) {
-  cdt::CdtInput input = plain_input(as_given);
+  cdt::CdtInput input = plain_input(as_given, points, predicates);
   std::vector<std::uint8_t> seen(points.size());
   std::fill_n(seen.begin(), as_given.vertex_half_edge.size(), 1);
   for (const SurfaceFace& face : mesh.boundary) {

@@ -10,6 +10,9 @@ namespace delmesher::enrich {
 
 // The input surface alone.
 cdt::CdtInput plain_input(const SurfaceTopology& topology);
+// With the vertices that it has beside its triangles (loose_points.h), as the other ones.
+cdt::CdtInput plain_input(const SurfaceTopology& topology, const PointStore& points,
+                          Predicates& predicates);
 
 // The input surface with the vertices of the refined mesh, but without the points on artificial
 // segments, volume vertices too near to removed parts of the surface (RemovedSurface), and points

@@ -1,3 +1,4 @@
+#include <array>
 #include <utility>
 
 #include "mesher/io/reading.h"
@@ -17,25 +18,33 @@ void add(const SizeSource& source, Position here, std::vector<SizeSource>& sourc
   sources.push_back(source);
 }
 
-std::vector<SizeSource> parse_lines(std::string_view text) {
-  std::vector<SizeSource> sources;
+// Calls visit(numbers, here) for each line of so many numbers.
+template <std::size_t kCount, class Visit>
+void parse_lines(std::string_view text, const std::string& expected, const Visit& visit) {
   TextLines in(text, Comments::at_token_start, ',');
   for (bool first = true; in.next_line(); first = false) {
     const Position here = at_line(in.line());
-    double numbers[4];
+    std::array<double, kCount> numbers;
     std::size_t count = 0;
     bool words = false;
     for (std::string_view token; in.next_token(token); ++count) {
       double value = 0;
       words = words || (first && parse_double(token, value) == NumberStatus::malformed);
       if (words) continue;
-      if (count == 4) fail(here, "more than four numbers: X Y Z SIZE are expected");
+      if (count == kCount) fail(here, "more numbers than expected: " + expected);
       numbers[count] = number_of(token, here);
     }
     if (words) continue;  // names of columns
-    if (count != 4) fail(here, "less than four numbers: X Y Z SIZE are expected");
-    add({{numbers[0], numbers[1], numbers[2]}, numbers[3]}, here, sources);
+    if (count != kCount) fail(here, "fewer numbers than expected: " + expected);
+    visit(numbers, here);
   }
+}
+
+std::vector<SizeSource> parse_sources(std::string_view text) {
+  std::vector<SizeSource> sources;
+  parse_lines<4>(text, "X Y Z SIZE", [&](const std::array<double, 4>& x, Position here) {
+    add({{x[0], x[1], x[2]}, x[3]}, here, sources);
+  });
   return sources;
 }
 
@@ -135,7 +144,7 @@ std::vector<SizeSource> parse(std::string_view text) {
   TextLines in(text, Comments::none);
   std::string_view first;
   const bool is_view = in.next_line() && in.next_token(first) && first == "View";
-  std::vector<SizeSource> sources = is_view ? ViewReader(text).read() : parse_lines(text);
+  std::vector<SizeSource> sources = is_view ? ViewReader(text).read() : parse_sources(text);
   if (sources.empty()) fail({}, "no sizes in it");
   return sources;
 }
@@ -148,6 +157,18 @@ SizeFieldResult read_size_field(const std::string& path) {
   } catch (...) {
     return {end_of_reading(path).error, {}};
   }
+}
+
+PointsResult read_points(const std::string& path) {
+  PointsResult result;
+  try {
+    parse_lines<3>(read_file(path), "X Y Z",
+                   [&](const std::array<double, 3>& x, Position) { result.points.push_back(x); });
+    if (result.points.empty()) fail({}, "no points in it");
+  } catch (...) {
+    return {end_of_reading(path).error, {}};
+  }
+  return result;
 }
 
 }  // namespace delmesher::io

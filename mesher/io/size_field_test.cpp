@@ -59,8 +59,8 @@ TEST_F(SizeFieldFiles, AreViewsOfScalars) {
 }
 
 TEST_F(SizeFieldFiles, ThatAreWrongAreRefusedByLine) {
-  EXPECT_EQ(error_of("1 2 3 4\n1 2 3\n"), "2: less than four numbers: X Y Z SIZE are expected");
-  EXPECT_EQ(error_of("1 2 3 4 5\n"), "1: more than four numbers: X Y Z SIZE are expected");
+  EXPECT_EQ(error_of("1 2 3 4\n1 2 3\n"), "2: fewer numbers than expected: X Y Z SIZE");
+  EXPECT_EQ(error_of("1 2 3 4 5\n"), "1: more numbers than expected: X Y Z SIZE");
   EXPECT_EQ(error_of("x y z h\nx y z h\n"), "2: no number: 'x'");
   EXPECT_EQ(error_of("1 2 3 0\n"), "1: sizes have to be above 0");
   EXPECT_EQ(error_of("1 2 3 inf\n"), "1: no number: 'inf'");
@@ -71,6 +71,19 @@ TEST_F(SizeFieldFiles, ThatAreWrongAreRefusedByLine) {
   EXPECT_EQ(error_of("View \"v\" {\n\nSP(0,0,0){-1};};"), "3: sizes have to be above 0");
   EXPECT_EQ(error_of("View \"v\" {\nSP(0,0,0){1};"), "2: only views of scalars have sizes, no ''");
   EXPECT_FALSE(read_size_field(path_ + ".none").ok());
+}
+
+TEST_F(SizeFieldFiles, OfPointsAreLinesOfThreeNumbers) {
+  const auto points = [this](const std::string& text) {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_points(path_);
+  };
+  using Points = std::vector<std::array<double, 3>>;
+  EXPECT_EQ(points("x y z\n1 2 3 # here\n4,5,.5\n").points, (Points{{1, 2, 3}, {4, 5, 0.5}}));
+  EXPECT_EQ(points("1 2 3\n1 2\n").error, path_ + ":2: fewer numbers than expected: X Y Z");
+  EXPECT_EQ(points("1 2 3 4\n").error, path_ + ":1: more numbers than expected: X Y Z");
+  EXPECT_EQ(points("# none\n").error, path_ + ": no points in it");
+  EXPECT_FALSE(read_points(path_ + ".none").ok());
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ std::optional<cdt::CdtResult> plain_without_points(Session& session) {
   if (!may_be_plain(session)) return std::nullopt;
   const std::size_t enriched_points = session.points.size();
   cdt::CdtResult plain = cdt::constrained_delaunay_tetrahedrization(
-      enrich::plain_input(session.surface.topology()), session.points, session.predicates,
-      session.control);
+      enrich::plain_input(session.surface.topology(), session.points, session.predicates),
+      session.points, session.predicates, session.control);
   session.points.truncate(enriched_points);
   if (!plain.steiner.empty()) return std::nullopt;
   return plain;

@@ -1,7 +1,9 @@
 #include "mesher/results/recorder.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "mesher/output/statistics.h"
 #include "mesher/results/record_stages.h"
@@ -131,6 +133,28 @@ void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing) {
   result_.statistics.diagonals_missing = missing;
 }
 
+void Recorder::note_loose_points(const TetMesh& mesh) {
+  std::map<Vec3, std::vector<VertexId>> loose;
+  for (VertexId v = 0; v < session_.input_vertices(); ++v) {
+    if (session_.surface.topology().vertex_half_edge[v] == kNone) {
+      loose[session_.points.nearest(v)].push_back(v);
+    }
+  }
+  if (loose.empty()) return;
+  for (const Vec3& p : mesh.vertices) loose.erase(p);
+  std::size_t count = 0;
+  VertexId first = kNone;
+  for (const auto& [place, vertices] : loose) {
+    count += vertices.size();
+    first = std::min(first, vertices.front());
+  }
+  if (count == 0) return;
+  result_.warnings.push_back(
+      std::to_string(count) + (count == 1 ? " point" : " points") +
+      " left out: outside of the mesh, or on a triangle (the first is number " +
+      std::to_string(first) + ", counted from 0)");
+}
+
 void Recorder::written(output::RoundingResult rounded) {
   Statistics& s = result_.statistics;
   s.rounding_inverted = rounded.inverted;
@@ -163,6 +187,7 @@ void Recorder::written(output::RoundingResult rounded) {
     facet = topology.facet_triangles[facet][0];
     mesh.boundary_labels.push_back(topology.labels[facet]);
   }
+  note_loose_points(mesh);
   result_.mesh = std::move(mesh);
 }
 

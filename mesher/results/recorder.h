@@ -54,6 +54,8 @@ class Recorder {
   void finish();
 
  private:
+  // Warns of vertices of no triangle that are none of the mesh.
+  void note_loose_points(const TetMesh& mesh);
   bool exact() const { return session_.options.want_exact; }
 
   const Session& session_;

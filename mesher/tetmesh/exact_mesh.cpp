@@ -34,8 +34,16 @@ ExactMesh::ExactMesh(NumberedMesh numbered, const SurfaceTopology* surface,
 }
 
 // A Steiner point of the surface is on a segment or on a triangle; explicit points there are of the
-// input. A point on an edge that is given by two parameters (SplitTarget::low) stays where it is.
+// input. A point on an edge that is given by two parameters (SplitTarget::low) stays where it is,
+// and so does a vertex of the input in the volume.
 void ExactMesh::find_mobility() {
+  if (surface_ != nullptr) {
+    for (VertexId v = 0; v < point_.size(); ++v) {
+      const bool is_given = point_[v] < surface_->vertex_half_edge.size();
+      if (is_given && surface_->vertex_half_edge[point_[v]] == kNone)
+        mobility_[v] = Mobility::fixed;
+    }
+  }
   for (TetId t = 0; t < mesh.slots(); ++t) {
     for (int i = 0; i < 4; ++i) {
       const FacetId facet = mesh.facet(t, i);

@@ -1,6 +1,7 @@
 // Where the points are that tell of regions: in which tetrahedra, or within which faces.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "oracles/files/polyhedron.h"
@@ -8,18 +9,20 @@
 
 namespace tetproof::oracles {
 
+// The tetrahedra that contain each of these points, with those on whose boundary it is, ascending.
+std::vector<std::vector<Index>> tetrahedra_around(const ExactPoints& points,
+                                                  const TetComplex& complex,
+                                                  std::span<const Index> which);
+
 class RegionPoints {
  public:
   RegionPoints(const std::vector<RegionPoint>& given, const TetComplex& complex);
 
-  // The tetrahedra that contain point n, with those on whose boundary it is, ascending.
   const std::vector<Index>& around(Index n) const { return around_[n]; }
   // Does an odd number of the faces surround it?
   bool is_within(Index n, std::vector<Face> faces) const;
 
  private:
-  bool contains(const Tet& tet, Index point) const;
-
   Index first_;         // of the points in points_
   ExactPoints points_;  // those of the complex, then the given ones
   std::vector<std::vector<Index>> around_;

@@ -63,6 +63,16 @@ void blank_words(std::string& text) {
   }
 }
 
+std::string read_text(const std::string& path, std::string& text) {
+  try {
+    text = read_whole_file(path);
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  unify_lines(text);
+  return {};
+}
+
 // Whatever is between numbers in lines becomes a space.
 std::vector<std::string> words_of_line(std::string line) {
   if (const auto comment = line.find('#'); comment != std::string::npos) line.resize(comment);
@@ -73,7 +83,9 @@ std::vector<std::string> words_of_line(std::string line) {
   return words;
 }
 
-std::string read_lines(const std::string& text, std::vector<SizeSource>& sources) {
+// Appends the numbers of each line, so many of them.
+std::string read_lines(const std::string& text, std::size_t count, const std::string& what,
+                       std::vector<std::vector<double>>& rows) {
   std::istringstream in(text);
   bool first = true;
   for (std::string line; std::getline(in, line);) {
@@ -83,12 +95,18 @@ std::string read_lines(const std::string& text, std::vector<SizeSource>& sources
     const bool is_head = first && !numbers;
     first = false;
     if (is_head) continue;
-    if (!numbers || words.size() != 4) return "a line is not X Y Z SIZE: " + line;
-    double x[4] = {};
-    for (std::size_t k = 0; k < 4; ++k) parse_number(words[k], x[k]);
-    sources.push_back({{x[0], x[1], x[2]}, x[3]});
+    if (!numbers || words.size() != count) return "a line is not " + what + ": " + line;
+    std::vector<double>& row = rows.emplace_back(count);
+    for (std::size_t k = 0; k < count; ++k) parse_number(words[k], row[k]);
   }
   return {};
+}
+
+std::string read_sources(const std::string& text, std::vector<SizeSource>& sources) {
+  std::vector<std::vector<double>> rows;
+  std::string why = read_lines(text, 4, "X Y Z SIZE", rows);
+  for (const auto& x : rows) sources.push_back({{x[0], x[1], x[2]}, x[3]});
+  return why;
 }
 
 // The numbers up to the closing bracket, behind which `at` is then.
@@ -174,21 +192,28 @@ double EdgeSizes::excess(const Position& a, const Position& b) const {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) / smallest;
 }
 
+std::string read_points(const std::string& path, std::vector<Position>& points) {
+  points.clear();
+  std::string text;
+  std::vector<std::vector<double>> rows;
+  std::string why = read_text(path, text);
+  if (!why.empty()) return why;
+  why = read_lines(text, 3, "X Y Z", rows);
+  for (const auto& x : rows) points.push_back({x[0], x[1], x[2]});
+  if (why.empty() && points.empty()) why = "no points in it";
+  return why.empty() ? why : path + ": " + why;
+}
+
 std::string read_size_field(const std::string& path, std::vector<SizeSource>& sources) {
   sources.clear();
   std::string text;
-  try {
-    text = read_whole_file(path);
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  unify_lines(text);
+  if (std::string why = read_text(path, text); !why.empty()) return why;
   std::istringstream words(text);
   std::string first;
   words >> first;
   const bool view = first == "View";
   if (view) blank_words(text);
-  std::string why = view ? read_view(text, sources) : read_lines(text, sources);
+  std::string why = view ? read_view(text, sources) : read_sources(text, sources);
   if (why.empty() && sources.empty()) why = "no sizes in it";
   for (const SizeSource& source : sources) {
     if (why.empty() && !(source.size > 0)) why = "sizes have to be above 0";

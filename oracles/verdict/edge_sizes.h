@@ -39,6 +39,9 @@ class EdgeSizes {
 // sources. Empty on success, else the mistake.
 std::string read_size_field(const std::string& path, std::vector<delmesher::SizeSource>& sources);
 
+// The same of lines X Y Z.
+std::string read_points(const std::string& path, std::vector<Position>& points);
+
 // Figures of a report on edges: how many are too long, and the largest over what is allowed.
 inline constexpr char kTooLong[] = "edges too long", kLargestEdge[] = "largest over its size";
 

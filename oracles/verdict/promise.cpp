@@ -69,6 +69,7 @@ enum class Takes : std::uint8_t {
   file,               // where something is written, or what something is called
   outputs,            // the same, several times
   sizes,              // a file that promises something: a size field
+  points,             // or points that become vertices
   list,               // of choices of the paper
   choice              // one of these: no option of its own
 };
@@ -109,6 +110,7 @@ constexpr Option kOptions[] = {
     {"--max-edge", kPlane | kImprove, Takes::length, &Promise::max_edge, 0, kMost, true},
     {"--size", kMesh, Takes::length, &Promise::size, 0, kMost, true},
     {"--size-field", kMesh | kImprove, Takes::sizes},
+    {"--points", kMesh, Takes::points},
     {"--size-growth", kMesh | kImprove, Takes::number, &Promise::size_growth, 0, 1, true},
     {"--budget", kMesh, Takes::number, &Promise::budget, 1, 1e15},
     {"--max-vertices", kAll, Takes::number, &Promise::max_vertices, 1, 4294967294},
@@ -341,6 +343,8 @@ class PromiseReader {
         return choose(*value_, p);
       case Takes::sizes:
         return read_size_field(*value_, p.size_field);
+      case Takes::points:
+        return read_points(*value_, p.points);
       case Takes::word:
         if (is_surface(option)) {
           p.may_keep = *value_ == "auto";

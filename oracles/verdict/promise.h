@@ -2,6 +2,7 @@
 // says them, since the record cannot vouch for itself.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -71,7 +72,8 @@ struct Promise {
   bool edges_by_size = false;                          // max_edge follows from it
   std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
   double size_growth = 0.3;
-  double budget = 0;  // tetrahedra; 0: tau is not raised
+  std::vector<std::array<double, 3>> points = {};  // further vertices of the input
+  double budget = 0;                               // tetrahedra; 0: tau is not raised
   // The options given, in a text, that a file without a record does not show to be kept.
   std::vector<std::string> of_record = {};
   double max_vertices = 0;  // 0: no limit

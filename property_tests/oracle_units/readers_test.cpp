@@ -39,6 +39,15 @@ TEST(SizeFields, LimitAnEdgeWhereItIsNearest) {
   EXPECT_DOUBLE_EQ(sizes.excess({1, 0, 0}, {3, 0, 0}), 2 / 0.375);
 }
 
+TEST(Points, AreReadAsTheMesherReadsThem) {
+  std::vector<Position> points;
+  EXPECT_EQ(read_points(written("points.txt", "x y z\n1,2,3\n4 5 +.5 # here\n"), points), "");
+  EXPECT_EQ(points, (std::vector<Position>{{1, 2, 3}, {4, 5, 0.5}}));
+  for (const char* text : {"1 2\n", "1 2 3 4\n", "# none\n", "1 2 inf\n"}) {
+    EXPECT_NE(read_points(written("points.txt", text), points), "") << text;
+  }
+}
+
 // What `mesh` takes as a size field, the verification takes, with the same sources.
 TEST(SizeFields, AreReadAsTheMesherReadsThem) {
   using Sources = std::vector<std::array<double, 4>>;

@@ -366,6 +366,13 @@ def test_the_same_for_any_number_of_threads():
     assert np.array_equal(one.points, two.points) and np.array_equal(one.tetrahedra, two.tetrahedra)
 
 
+def test_points_without_triangles():
+    points = np.vstack([POINTS, [[0.25, 0.5, 0.625], [9, 9, 9]]])
+    mesh = tetproof.mesh(points, TRIANGLES)
+    assert [0.25, 0.5, 0.625] in mesh.points.tolist() and [9, 9, 9] not in mesh.points.tolist()
+    assert any("1 point left out" in line for line in mesh.warnings)
+
+
 def test_a_size_field():
     corner, fine = np.zeros(3), [[0, 0, 0, 0.02]]
     mesh = tetproof.mesh(POINTS, TRIANGLES, size_field=fine, size_growth=0.5, improve=False, region="interior")

@@ -48,7 +48,8 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
     Parameters
     ----------
     points : (n, 3) array_like of float, or an object with points and triangles, or a path
-        A `Surface`, or what trimesh, meshio or pyvista have, or the name of a file that `read` reads.
+        A `Surface`, or what trimesh, meshio or pyvista have, or the name of a file that `read` reads. Points that no triangle has
+        become points of the mesh, as electrodes, unless they lie outside or on a triangle.
     triangles : (m, 3) array_like of int
         Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
     labels : (m,) array_like of int, optional
