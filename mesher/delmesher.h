@@ -6,6 +6,7 @@
 // plane.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct Result {
   TetMesh mesh;                       // empty unless status.ok()
   Surface chamfered;                  // if Options::want_chamfered: rounded, for display
   std::vector<MeshRegion> regions;    // but with Regions::solid: number N is regions[N - 1]
-  ExactRecord exact;                  // if Options::want_exact
+  std::map<std::int32_t, std::string> wall_names;  // of labels of sides (Options::split_walls)
+  ExactRecord exact;                               // if Options::want_exact
   Statistics statistics;
 };
 

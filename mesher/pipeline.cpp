@@ -30,6 +30,7 @@
 #include "mesher/results/region_list.h"
 #include "mesher/results/region_points.h"
 #include "mesher/results/rounding_input.h"
+#include "mesher/results/split_walls.h"
 #include "mesher/results/units.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
@@ -415,7 +416,7 @@ struct Keeping {
     }
     if (Status status = choose_regions(s.options, regions, mesh); !status.ok()) return status;
     drop_outside_if_apart();
-    return {};
+    return check_wall_names(s.options, merged, regions, mesh);
   }
   bool is_empty() const {
     return std::ranges::count(mesh.region, kOutside) == std::ssize(mesh.region);
@@ -527,7 +528,7 @@ Result run_complex(const Surface& surface, const Options& options, const LocalFr
       options, frame);
   if (!result.status.ok()) return result;
   result.regions = std::move(regions);
-  finish_regions(merged, result);
+  finish_regions(options, merged, surface.triangles.size(), result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "oracles/mesh/angles.h"
+#include "oracles/mesh/split_walls.h"
 #include "oracles/shared_data.h"
 #include "oracles/verdict/verdict.h"
 
@@ -23,6 +24,9 @@ struct Subject {
   SharedData& shared;
   Memory& memory;
   double largest_given = 0;  // coordinate of the input, if it is larger than those here
+  // Where walls are split, `mesh` has one vertex at each place.
+  const MeshFile* split = nullptr;
+  const MergedMesh* merged = nullptr;
 };
 
 // One step, with a report of its own.

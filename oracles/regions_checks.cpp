@@ -16,11 +16,15 @@ namespace {
 
 class RegionsStep final : public FileStep {
  public:
-  using FileStep::FileStep;
+  explicit RegionsStep(const Subject& subject)
+      : FileStep(subject), split_(subject.split), merged_(subject.merged) {}
   std::string run() override;
 
  private:
   void measure_input();
+
+  const MeshFile* split_;  // the file, where walls are split
+  const MergedMesh* merged_;
 };
 
 void RegionsStep::measure_input() {
@@ -55,13 +59,22 @@ std::string RegionsStep::run() {
     report_.unproven.push_back("--regions (" + std::to_string(parts.split) +
                                " triangles are split)");
   }
-  const bool by_name =
-      !options_.promised.region_names.empty() || !options_.promised.region_sizes.empty();
+  const bool by_name = !options_.promised.region_names.empty() ||
+                       !options_.promised.region_sizes.empty() ||
+                       !options_.promised.split_wall_names.empty();
+  bool names_read = true;
   const bool tells_names = std::ranges::any_of(
       input_.region_points, [](const RegionPoint& p) { return !p.name.empty(); });
   if (by_name && !tells_names && (!input_.names_read || options_.promised.names)) {
     report_.unproven.emplace_back("names of regions: these are not read");
     parts.parts.undecided = parts.parts.violations > 0;
+    names_read = false;
+  }
+  if (merged_ != nullptr) {
+    OracleReport walls =
+        check_split_walls(input_, *split_, *merged_, complex, neighbours, parts, options_.promised);
+    walls.undecided = !names_read && walls.violations > 0;
+    if (walls.checked > 0 || walls.violations > 0) add(std::move(walls));
   }
   add(std::move(parts.parts));
   add(std::move(parts.regions));

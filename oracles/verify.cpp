@@ -41,6 +41,7 @@ struct Frame {
   Expendable expendable;
   double largest_given = 0;  // coordinate of the input, if it has been moved
   std::optional<BesideOrigin> moved = {};
+  std::optional<MergedMesh> merged = {};
   std::optional<InOrdinaryUnits> scaled = {};
   bool text_skipped = false;  // of the record, as it is in the units given
 };
@@ -57,6 +58,15 @@ bool move_beside_origin(Frame& frame, VerifyReport& report) {
   frame.expendable = {&frame.moved->mesh, &frame.moved->record};
   frame.largest_given = frame.moved->largest;
   return report.oracles.back().passed();
+}
+
+void merge_walls(Frame& frame) {
+  const Promise& promise = frame.options.promised;
+  if (!promise.all_regions || promise.split_walls == Promise::Split::none) return;
+  if (!std::ranges::all_of(frame.mesh->vertices, is_finite)) return;  // reported later
+  frame.merged = merge_places(*frame.input, *frame.mesh);
+  frame.mesh = &frame.merged->mesh;
+  frame.expendable = {&frame.merged->mesh, nullptr};
 }
 
 void put_in_ordinary_units(Frame& frame) {
@@ -169,6 +179,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     conclude(0, report);
     return {};
   }
+  merge_walls(frame);
   put_in_ordinary_units(frame);
   frame.options.promised.stated_planar = stated_planar(frame);
   report.planar_share = frame.options.promised.planar_share();
@@ -176,8 +187,15 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   std::unique_ptr<SharedData> shared;
   Memory memory(frame.expendable, [&shared] { shared->forget_refined(); });
   shared = std::make_unique<SharedData>(*frame.input, frame.exact, frame.options.promised, memory);
-  const Subject subject{*frame.input, *frame.mesh, frame.exact,        frame.options,
-                        *shared,      memory,      frame.largest_given};
+  const Subject subject{*frame.input,
+                        *frame.mesh,
+                        frame.exact,
+                        frame.options,
+                        *shared,
+                        memory,
+                        frame.largest_given,
+                        frame.merged ? &mesh : nullptr,
+                        frame.merged ? &*frame.merged : nullptr};
   const std::vector<PlannedStep> planned = plan(frame.exact, frame.options);
   std::vector<std::unique_ptr<Step>> steps;
   for (const PlannedStep& step : planned) {

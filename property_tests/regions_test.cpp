@@ -152,6 +152,17 @@ TEST(AllRegions, WithSheets) {
   expect_regions(builder.surface(), {64});
   const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
   EXPECT_EQ(result.mesh.boundary.size(), inside);
+  // Listed as they are given.
+  for (std::size_t n = 0; n < inside; ++n) {
+    const auto corner = [&](std::size_t k) {
+      return result.mesh.vertices[result.mesh.boundary[n][k]];
+    };
+    const auto& given = builder.surface().triangles[result.mesh.boundary_facets[n]];
+    std::array<std::array<double, 3>, 3> face = {corner(0), corner(1), corner(2)};
+    std::rotate(face.begin(), std::ranges::find(face, builder.surface().vertices[given[0]]),
+                face.end());
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(face[k], builder.surface().vertices[given[k]]);
+  }
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_NE(result.warnings[0].find("1 triangles are left out"), std::string::npos);
 }

@@ -287,7 +287,8 @@ TEST(Arguments, OfRegions) {
   EXPECT_EQ(some.region_sizes[0].max_edge, 0.5);
   EXPECT_EQ(options_of<Options>(parse({"in.stl", "-o", "a.msh", "--regions=largest"})).regions,
             Regions::largest);
-  expect_usage_error({"in.stl", "-o", "a.msh", "--regions", "copper,"}, "not names of regions");
+  expect_usage_error({"in.stl", "-o", "a.msh", "--regions", "copper,"}, "not names with");
+  expect_usage_error({"in.stl", "-o", "a.msh", "--split-walls", ",a|b"}, "not names with");
   for (const char* wrong : {"1,2", "copper=0", "=1", "copper=", "1,", "copper=1,x"}) {
     expect_usage_error({"in.stl", "-o", "a.msh", "--max-edge", wrong}, "not lengths X or REGION=X");
   }

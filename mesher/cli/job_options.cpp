@@ -93,17 +93,21 @@ CLI::Validator number_within(const Bounds& bounds, bool whole,
       "NUMBER");
 }
 
+bool takes_names(const Value& option) {
+  return option.text.lists == Lists::regions || option.text.lists == Lists::walls;
+}
+
 // What the table takes as a list. A number alone is checked as others are.
 CLI::Validator list_of(const Value& option) {
   const std::string name(option.text.name);
-  const bool names = option.text.lists == Lists::regions;
+  const bool names = takes_names(option);
   return CLI::Validator(
       [name, names,
        number = number_within(bounds_of(option), false)](std::string& text) -> std::string {
         if (!names && text.find_first_of("=,") == std::string::npos) return number(text);
         Options any;
         if (options::set(any, name, std::string_view(text))) return "";
-        return std::string("not ") + (names ? "names of regions" : "lengths X or REGION=X") +
+        return std::string("not ") + (names ? "names" : "lengths X or REGION=X") +
                " with commas: " + text;
       },
       names ? "NAMES" : "NUMBER");
@@ -125,7 +129,7 @@ bool is_flag(const Value& option) {
 // "X", "N", "on|off", "FILE"
 std::string type_of(const Value& option) {
   if (option.kind == Kind::sources) return "FILE";
-  if (option.text.lists == Lists::regions) return joined(words_of(option), "|") + "|NAMES";
+  if (takes_names(option)) return joined(words_of(option), "|") + "|NAMES";
   if (option.kind == Kind::number) return "X";
   return option.kind == Kind::count ? "N" : joined(words_of(option), "|");
 }

@@ -93,6 +93,35 @@ TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");
 }
 
+TEST_F(Program, WallsAreSplitInEveryFormat) {
+  const auto box = [](const char* name, int x) {
+    std::string text = std::string("solid ") + name + "\n";
+    constexpr int kCorners[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                     {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                     {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    for (const auto& triangle : kCorners) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const int v : triangle) {
+        text += "vertex " + std::to_string(x + v % 2) + " " + std::to_string(v / 2 % 2) + " " +
+                std::to_string(v / 4) + "\n";
+      }
+      text += "endloop\nendfacet\n";
+    }
+    return text + "endsolid\n";
+  };
+  write("in.stl", box("copper", 0) + box("air", 1));
+  EXPECT_EQ(
+      run("in.stl -o a.inp -o a.msh -o a.vtu --ascii --regions all --split-walls 'air|copper'"), 0);
+  for (const char* set : {"NAME=copper_air\n", "NAME=air_copper\n"}) {
+    EXPECT_NE(text("a.inp").find(set), std::string::npos) << text("a.inp");
+  }
+  EXPECT_NE(text("a.msh").find("\"air|copper\""), std::string::npos);
+  EXPECT_NE(text("a.vtu").find("\"copper|air\""), std::string::npos);
+  EXPECT_EQ(run("in.stl -o a.inp --regions all --split-walls iron"), 2);
+  EXPECT_NE(text("err.txt").find("no wall is called \"iron\": there are copper|air"),
+            std::string::npos);
+}
+
 TEST_F(Program, PointsBecomeVertices) {
   write("in.poly",
         "5 3\n0 0 0 0\n1 4 0 0\n2 0 4 0\n3 0 0 4\n4 0.5 0.625 0.75\n4\n1\n3 0 2 1\n1\n3 0 1 3\n1\n"

@@ -88,6 +88,7 @@ Json parameters_json(const Command& command) {
   }
   if (const auto* mesh = std::get_if<Options>(&command.options)) {
     if (!mesh->region_names.empty()) parameters["regions"] = mesh->region_names;
+    if (!mesh->split_wall_names.empty()) parameters["split_walls"] = mesh->split_wall_names;
     for (const RegionSize& size : mesh->region_sizes) {
       parameters["max_edge_in"][size.region] = size.max_edge;
     }

@@ -122,8 +122,10 @@ io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) 
   io::WriteStatus status;
   io::WriteOptions write = command_.write;
   write.region_names = region_names(result.regions, names_);
+  io::LabelNames names = names_;
+  names.insert(result.wall_names.begin(), result.wall_names.end());
   for (const std::string& output : command_.outputs) {
-    status = warned(io::write_mesh(outputs, output, result.mesh, names_, write));
+    status = warned(io::write_mesh(outputs, output, result.mesh, names, write));
     if (!status.ok()) return status;
   }
   if (!command_.chamfered_file.empty()) {

@@ -59,8 +59,13 @@ struct Text {
   bool promised = false;           // the oracles check it, if named in --promised
   bool with_kept_surface = false;  // SurfaceChoice::keep uses it
   std::array<Word, 3> words = {};
-  // What else its value may be, with commas: names of regions, or also REGION=VALUE.
-  enum class Lists : std::uint8_t { nothing, regions, values_of_regions } lists = Lists::nothing;
+  // What else its value may be, with commas: names of regions or walls, or also REGION=VALUE.
+  enum class Lists : std::uint8_t {
+    nothing,
+    regions,
+    walls,
+    values_of_regions
+  } lists = Lists::nothing;
 };
 
 template <class... Members>
@@ -117,6 +122,16 @@ inline constexpr std::tuple kTable{
          .words = {{{"solid", 0}, {"all", 1}, {"largest", 2}}},
          .lists = Text::Lists::regions},
         &Options::regions),
+    Row({.name = "split_walls",
+         .help =
+             "with --regions: the two sides of walls and sheets get vertices of their own, to "
+             "part, as in contact or cracks: all, or with commas names as copper|air, and labels",
+         .bounds = {.high = 2},
+         .promised = true,
+         .with_kept_surface = true,
+         .words = {{{"none", 0}, {"all", 1}}},
+         .lists = Text::Lists::walls},
+        &Options::split_walls),
     Row({.name = "strict",
          .help = "with --surface keep: fail where an added vertex cannot leave the surface",
          .promised = true,
@@ -494,14 +509,14 @@ bool set_in_regions(JobOptions& options, const Text& text, std::string_view list
   return true;
 }
 
-// Names of regions, none of them empty.
-template <class JobOptions>
-bool set_regions(JobOptions& options, std::string_view list) {
+// Adds names of a list, none of them empty; its choice becomes `named`.
+template <class Choice>
+bool set_names(std::string_view list, Choice& choice, std::vector<std::string>& names) {
   for (const std::string_view name : parts_of(list)) {
     if (name.empty()) return false;
-    options.region_names.emplace_back(name);
+    names.emplace_back(name);
   }
-  options.regions = Regions::named;
+  choice = Choice::named;
   return true;
 }
 
@@ -516,7 +531,12 @@ bool set(JobOptions& options, std::string_view name, std::string_view word) {
     const double share = share_of(word);
     if (option.text.unit == Unit::length_or_share && share != 0) return set(options, name, share);
     if constexpr (requires { options.region_names; }) {
-      if (option.text.lists == Text::Lists::regions) return set_regions(options, word);
+      if (option.text.lists == Text::Lists::regions) {
+        return set_names(word, options.regions, options.region_names);
+      }
+      if (option.text.lists == Text::Lists::walls) {
+        return set_names(word, options.split_walls, options.split_wall_names);
+      }
       if (option.text.lists == Text::Lists::values_of_regions) {
         return set_in_regions(options, option.text, word);
       }

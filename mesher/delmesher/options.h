@@ -37,6 +37,13 @@ enum class Regions : std::uint8_t {
   named     // and only those of Options::region_names
 };
 
+// Of walls between regions, and of sheets.
+enum class SplitWalls : std::uint8_t {
+  none,
+  all,
+  named  // those of Options::split_wall_names
+};
+
 // Of the regions of this name.
 struct RegionSize {
   std::string region;
@@ -70,6 +77,11 @@ struct Options : Limits {
   SurfaceChoice surface = SurfaceChoice::automatic;
   Regions regions = Regions::solid;
   std::vector<std::string> region_names;
+  // With other Regions than solid: the two sides of these walls get vertices of their own, except
+  // where they hang together elsewhere, as on the border of a sheet. They are called by the regions
+  // beside them, as in copper|air, or like a label.
+  SplitWalls split_walls = SplitWalls::none;
+  std::vector<std::string> split_wall_names;
   // What labels are called: a region has the name of the solid that it lies in.
   std::map<std::int32_t, std::string> label_names;
   // With other Regions than solid. One that lies in no region, or on a wall between two, gives a

@@ -12,6 +12,7 @@
 #include "mesher/base/sort_unique.h"
 #include "mesher/delmesher/region_name.h"
 #include "mesher/geometry/vector.h"
+#include "mesher/results/split_walls.h"
 
 namespace delmesher::results {
 namespace {
@@ -308,14 +309,40 @@ Status find_region_sizes(const Options& options, const std::vector<MeshRegion>& 
   return {};
 }
 
-void finish_regions(const surface::MergedSurface& merged, Result& result) {
+namespace {
+
+// Local operations do not know which way a triangle between tetrahedra was given.
+void turn_as_given(const surface::MergedSurface& merged, TetMesh& mesh) {
+  const auto normal = [](const auto& vertices, const auto& t) {
+    return cross(subtract(vertices[t[1]], vertices[t[0]]),
+                 subtract(vertices[t[2]], vertices[t[0]]));
+  };
+  for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
+    auto& face = mesh.boundary[n];
+    const auto& given = merged.surface.triangles[mesh.boundary_facets[n]];
+    if (dot(normal(mesh.vertices, face), normal(merged.surface.vertices, given)) < 0) {
+      std::swap(face[1], face[2]);
+    }
+  }
+}
+
+}  // namespace
+
+void finish_regions(const Options& options, const surface::MergedSurface& merged,
+                    std::size_t triangles, Result& result) {
   TetMesh& mesh = result.mesh;
   // A mesh of region 1 alone has no list of its own.
   if (mesh.regions.empty()) mesh.regions.assign(mesh.tetrahedra.size(), 1);
   for (const std::int32_t region : mesh.regions) {
     ++result.regions[static_cast<std::size_t>(region - 1)].tetrahedra;
   }
-  for (std::uint32_t& facet : mesh.boundary_facets) facet = merged.given[facet];
+  turn_as_given(merged, mesh);
+  split_walls(options, merged, result);
+  const auto count = static_cast<std::uint32_t>(merged.given.size());
+  for (std::uint32_t& facet : mesh.boundary_facets) {
+    facet = facet < count ? merged.given[facet]
+                          : static_cast<std::uint32_t>(triangles) + merged.given[facet - count];
+  }
 }
 
 }  // namespace delmesher::results

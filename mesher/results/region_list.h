@@ -30,8 +30,9 @@ Status choose_regions(const Options& options, const std::vector<MeshRegion>& reg
 Status find_region_sizes(const Options& options, const std::vector<MeshRegion>& regions,
                          std::vector<double>& sizes);
 
-// Counts the tetrahedra of each region of result.mesh; the facets of its boundary become those of
-// the triangles given.
-void finish_regions(const surface::MergedSurface& merged, Result& result);
+// Counts the tetrahedra of each region of result.mesh, and splits walls; the facets of its boundary
+// become those of the triangles given, of which there are so many.
+void finish_regions(const Options& options, const surface::MergedSurface& merged,
+                    std::size_t triangles, Result& result);
 
 }  // namespace delmesher::results

@@ -74,6 +74,10 @@ std::string combination_defect(const Options& given) {
   if ((given.regions == Regions::named) == given.region_names.empty()) {
     return "names of regions are for --regions with names";
   }
+  if ((given.split_walls == SplitWalls::named) == given.split_wall_names.empty()) {
+    return "names of walls are for --split-walls with names";
+  }
+  if (!complex && given.split_walls != SplitWalls::none) return "--split-walls needs --regions";
   if (!complex && !given.region_sizes.empty()) return "--max-edge of a region needs --regions";
   for (const RegionSize& size : given.region_sizes) {
     if (!(size.max_edge > 0) || !std::isfinite(size.max_edge)) {

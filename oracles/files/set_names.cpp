@@ -106,4 +106,11 @@ void compare_names(const SetNames& names_wanted, const SetNames& found, int dime
   }
 }
 
+bool is_called(const std::string& name, const std::string& wanted) {
+  if (!name.starts_with(wanted)) return false;
+  const std::string rest = name.substr(wanted.size());
+  return rest.empty() || (rest.size() > 1 && rest[0] == ' ' &&
+                          rest.find_first_not_of("0123456789", 1) == rest.npos);
+}
+
 }  // namespace tetproof::oracles

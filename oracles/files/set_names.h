@@ -22,4 +22,7 @@ using SetNames = std::map<std::pair<int, std::int64_t>, std::string>;
 void compare_names(const SetNames& wanted, const SetNames& found, int dimension,
                    const std::vector<std::int64_t>& numbers, OracleReport& report);
 
+// Is a set called so, or, as all but the first set of a name in a file, with a number after it?
+bool is_called(const std::string& name, const std::string& wanted);
+
 }  // namespace tetproof::oracles

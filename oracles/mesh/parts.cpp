@@ -65,7 +65,11 @@ class Parts {
     check_names();
     check_names_by_points();
     check_list();
-    if (near > 0 && !missing_.empty() && missing_.size() <= kMostSplit &&
+    for (Index t = 0; t < part_.size(); ++t) result_.part.push_back(part_.find(t));
+    if (splits_walls()) {
+      for (const auto& [part, t] : parts()) result_.called[part] = called(t);
+    }
+    if (near > 0 && !torn_ && !missing_.empty() && missing_.size() <= kMostSplit &&
         std::ranges::all_of(missing_, [&](Index t) { return is_split(triangles_[t], near); })) {
       result_.split = missing_.size();
       for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
@@ -107,7 +111,7 @@ class Parts {
   std::string name(const Triangle& t) const { return "triangle " + std::to_string(t.given); }
 
   // One vertex of several at the same place: one of the mesh, if there is one.
-  std::vector<Index> vertices_by_place() const {
+  std::vector<Index> vertices_by_place() {
     std::vector<Index> order(input_.vertices.size() + mesh_.vertices.size()), first(order.size());
     for (Index v = 0; v < order.size(); ++v) order[v] = v;
     const auto place = [&](Index v) -> const Position& {
@@ -122,6 +126,7 @@ class Parts {
     for (std::size_t n = 0; n < order.size(); ++n) {
       const bool same = n > 0 && place(order[n]) == place(order[n - 1]);
       first[order[n]] = same ? first[order[n - 1]] : order[n];
+      torn_ = torn_ || (same && order[n] >= complex_.first_vertex);
     }
     return first;
   }
@@ -340,11 +345,12 @@ class Parts {
   }
 
   // --- which parts are asked for
+  bool splits_walls() const { return promise_.split_walls != Promise::Split::none; }
   bool asks_for_some() const { return promise_.largest_region || !promise_.region_names.empty(); }
 
   // What is only asked of names; none where every part is asked for.
   void find_solids() {
-    if (promise_.region_names.empty() && promise_.region_sizes.empty()) return;
+    if (promise_.region_names.empty() && promise_.region_sizes.empty() && !splits_walls()) return;
     std::vector<std::vector<std::int32_t>> labels;
     for (const Triangle& t : triangles_) {
       corners_.push_back(t.corners);
@@ -360,13 +366,6 @@ class Parts {
     return !name.empty() &&
            std::ranges::any_of(promise_.region_names,
                                [&](const std::string& asked) { return is_called(name, asked); });
-  }
-  // In a file all but the first set of a name have a number after it.
-  static bool is_called(const std::string& name, const std::string& wanted) {
-    if (!name.starts_with(wanted)) return false;
-    const std::string rest = name.substr(wanted.size());
-    return rest.empty() || (rest.size() > 1 && rest[0] == ' ' &&
-                            rest.find_first_not_of("0123456789", 1) == rest.npos);
   }
 
   // Is the part with this shell around it, which the mesh does not have, to be there?
@@ -637,6 +636,7 @@ class Parts {
   std::map<Index, Shell> shells_;
   RegionPoints region_points_;
   std::map<Index, std::vector<Index>> points_of_;  // of parts
+  bool torn_ = false;                              // the mesh has several vertices at one place
   std::vector<Face> outer_faces_;
   std::optional<RayTarget> outer_;
   std::vector<Index> missing_;  // triangles that are no faces and should be

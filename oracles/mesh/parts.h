@@ -20,6 +20,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "oracles/files/mesh_file.h"
@@ -39,6 +41,9 @@ struct PartsResult {
   // the labels given.
   OracleReport list{"boundary-list", "triangles"};
   std::uint64_t split = 0;  // triangles that may be, see below
+  // Per tetrahedron its part; if walls are to be split, what each part is called, if anything.
+  std::vector<Index> part;
+  std::map<Index, std::string> called;
   // Per tetrahedron the longest edge promised, 0: any; and whether no triangle has a longer one.
   std::vector<double> longest;
   bool triangles_fit = true;

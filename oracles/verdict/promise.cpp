@@ -65,6 +65,7 @@ enum class Takes : std::uint8_t {
   length_or_share,    // the same, or a fraction of the diagonal with a d behind it
   word,               // one of two
   regions,            // a word, or names of regions with commas
+  walls,              // the same of walls
   length_or_regions,  // a length, and lengths of regions as in copper=0.5, with commas
   file,               // where something is written, or what something is called
   outputs,            // the same, several times
@@ -133,6 +134,7 @@ constexpr Option kOptions[] = {
      .target = &Promise::keep,
      .words = {"split", "keep"}},
     {.name = "--regions", .tasks = kMesh, .takes = Takes::regions, .target = &Promise::all_regions},
+    {"--split-walls", kMesh, Takes::walls},
     {"--strict", kMesh, Takes::nothing, &Promise::strict},
     {.name = "--improve",
      .tasks = kMesh,
@@ -357,6 +359,8 @@ class PromiseReader {
                (is_surface(option) ? " or auto" : "") + ", not \"" + *value_ + "\"";
       case Takes::regions:
         return take_regions(p);
+      case Takes::walls:
+        return take_walls(p);
       case Takes::length_or_regions:
         return take_lengths(option, p);
       case Takes::number:
@@ -389,6 +393,16 @@ class PromiseReader {
     p.region_names = entries();
     const bool nameless = std::ranges::find(p.region_names, "") != p.region_names.end();
     return nameless ? "--regions: a name is missing in \"" + *value_ + "\"" : "";
+  }
+
+  std::string take_walls(Promise& p) const {
+    p.split_walls = *value_ == "none"  ? Promise::Split::none
+                    : *value_ == "all" ? Promise::Split::all
+                                       : Promise::Split::named;
+    if (p.split_walls != Promise::Split::named) return {};
+    p.split_wall_names = entries();
+    const bool nameless = std::ranges::find(p.split_wall_names, "") != p.split_wall_names.end();
+    return nameless ? "--split-walls: a name is missing in \"" + *value_ + "\"" : "";
   }
 
   std::string take_lengths(const Option& option, Promise& p) {
@@ -700,6 +714,8 @@ Promise promise_of(const delmesher::Options& options) {
   p.all_regions = options.regions != delmesher::Regions::solid;
   p.largest_region = options.regions == delmesher::Regions::largest;
   p.region_names = options.region_names;
+  p.split_walls = static_cast<Promise::Split>(options.split_walls);
+  p.split_wall_names = options.split_wall_names;
   for (const auto& [name, size] : options.region_sizes) p.region_sizes.emplace_back(name, size);
   bound_edges(p);
   if (p.keep || p.all_regions) set_kept(p);

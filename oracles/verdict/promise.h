@@ -47,6 +47,9 @@ struct Promise {
   std::vector<std::string> region_names = {};
   // The longest edge in the regions of a name, in input units.
   std::vector<std::pair<std::string, double>> region_sizes = {};
+  // Whose two sides have vertices of their own.
+  enum class Split : std::uint8_t { none, all, named } split_walls = Split::none;
+  std::vector<std::string> split_wall_names = {};
   bool strict = false;  // without an exception
   bool names = false;   // sets are called by names of another file
   // The surface may be another one so near, in both directions: in input units, or minus a fraction

@@ -158,6 +158,11 @@ TEST(Promises, AreReadFromCommandLines) {
   EXPECT_EQ(p.region_names, std::vector<std::string>({"core", "block"}));
   EXPECT_EQ(p.max_edge, 2);
   EXPECT_EQ(p.region_sizes, (std::vector<std::pair<std::string, double>>{{"core", 0.5}}));
+  EXPECT_EQ(parse_promise("--regions all --split-walls core|block,crack", p), "");
+  EXPECT_EQ(p.split_wall_names, (std::vector<std::string>{"core|block", "crack"}));
+  EXPECT_EQ(parse_promise("--regions all --split-walls all", p), "");
+  EXPECT_TRUE(p.split_walls == Promise::Split::all && p.split_wall_names.empty());
+  EXPECT_NE(parse_promise("--regions all --split-walls a,,b", p), "");
   EXPECT_EQ(parse_promise("--regions largest", p), "");
   EXPECT_TRUE(p.largest_region && p.region_names.empty());
   for (const char* text : {"--regions a,", "--regions a --max-edge 1,2", "--max-edge a=1",
@@ -222,12 +227,12 @@ std::vector<JobOptions> jobs_with_promises() {
 }
 
 auto members(const Promise& p) {
-  return std::tuple(
-      std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel, p.approximate, p.improve,
-                 p.region, p.chamfer_radius, p.max_edge, p.size_field.size(), p.size_growth,
-                 p.budget, p.max_vertices, p.keep, p.may_keep, p.strict, p.tolerance, p.feature),
-      std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment, p.filter_pairs,
-                 p.filter_chamfered, p.no_guard));
+  return std::tuple(std::tuple(p.delta, p.tau, p.planar, p.acute, p.corner, p.gabriel,
+                               p.approximate, p.improve, p.region, p.chamfer_radius, p.max_edge,
+                               p.size_field.size(), p.size_growth, p.budget, p.max_vertices, p.keep,
+                               p.may_keep, p.strict, p.tolerance, p.feature, p.split_walls),
+                    std::tuple(p.link, p.bridges, p.steiner_point, p.kept_points, p.enrichment,
+                               p.filter_pairs, p.filter_chamfered, p.no_guard));
 }
 
 std::string argument(const delmesher::options::Value& option, const std::string& sizes) {
