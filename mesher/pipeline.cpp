@@ -374,7 +374,8 @@ cdt::CdtResult plain_cdt(cdt::CdtInput input, Session& s) {
   return cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
 }
 
-// A mesh whose faces on the surface are the triangles, but for those that vertices were left on.
+// A mesh whose faces on the surface are the triangles, but for those that vertices were left on
+// and, with SurfaceChoice::automatic, those with edges that are longer than wanted.
 struct Keeping {
   Session& s;
   Recorder& recorder;
@@ -426,6 +427,7 @@ struct Keeping {
     options.region_edges = region_edges;
     options.keep_surface = true;
     options.unfinished = unfinished;
+    options.halve_edges = s.options.surface != SurfaceChoice::keep && !is_complex(s) && !unfinished;
     improve::ImproveResult improved = improve::improve(std::move(mesh), &s.surface.topology(), {},
                                                        options, s.points, s.predicates, s.control);
     mesh = std::move(improved.mesh);
@@ -566,7 +568,7 @@ constexpr Step<Runs> kRuns[] = {
 
 Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
   Options options = given;
-  options.surface = surface_choice(given, surface);
+  options.surface = surface_choice(given);
   Runs runs{surface, frame, PlanarRuns(options), {}};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);

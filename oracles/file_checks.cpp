@@ -173,7 +173,7 @@ void SolidStep::check_surface(const TetComplex& complex, const Neighbours& neigh
 
 // Unless it was to be strict, a run may leave vertices on the surface; what it left is said first.
 void SolidStep::check_surface_kept(const ConformityResult& conformity, Index first) {
-  OracleReport kept = check_kept(input_, mesh_, conformity.faces, first);
+  OracleReport kept = check_kept(input_, mesh_, conformity.faces, first, options_.promised);
   if (kept.violations > 0 && !options_.promised.strict) {
     say_first("--surface keep (" + std::to_string(kept.violations) + " triangles are split)", kept);
   }

@@ -95,18 +95,6 @@ std::optional<double> stated_planar(const Frame& frame) {
   return std::min(recorded, stated.value_or(recorded));
 }
 
-double longest_edge(const Polyhedron& input) {
-  double longest = 0;
-  for (const auto& triangle : input.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = triangle[i], w = triangle[(i + 1) % 3];
-      if (std::max(v, w) >= input.vertices.size()) continue;  // reported later
-      longest = std::max(longest, distance(input.vertices[v], input.vertices[w]));
-    }
-  }
-  return longest;
-}
-
 // What the record says and no oracle can decide, where it gives less than was asked for.
 void name_what_is_trusted(const Frame& frame, bool may_keep, std::size_t tetrahedra,
                           VerifyReport& report) {
@@ -170,7 +158,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   }
   const bool may_keep = frame.options.promised.may_keep;
   const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped
-  if (exact != nullptr) frame.options.promised.settle(*exact, longest_edge(*frame.input));
+  if (exact != nullptr) frame.options.promised.settle(*exact);
   if (frame.options.promised.keep && frame.options.stage == Stage::both) {
     frame.options.stage = Stage::final;
   }

@@ -268,21 +268,50 @@ TEST(AutomaticSurface, IsKeptWhereItWouldTakeManyToSplitIt) {
 }
 
 TEST(AutomaticSurface, IsSplitForOptionsThatNeedIt) {
-  for (const auto change :
-       {+[](Options& o) { o.delta = 10; }, +[](Options& o) { o.tau = 1e-3; },
-        +[](Options& o) { o.budget = 1000000; }, +[](Options& o) { o.max_edge = 0.5; },
-        +[](Options& o) {
-          o.size_field = {{{0, 0, 0}, 10}};
-        }}) {
+  for (const auto change : {+[](Options& o) { o.delta = 10; }, +[](Options& o) { o.tau = 1e-3; },
+                            +[](Options& o) { o.budget = 1000000; }}) {
     Options options = automatic();
     change(options);
     const Result result = delmesher::tetrahedralize(plate(), options);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_FALSE(is_kept(result));
   }
-  Options options = automatic();
-  options.max_edge = 2;  // its longest edge has root 2
-  EXPECT_TRUE(is_kept(delmesher::tetrahedralize(plate(), options)));
+}
+
+// Edges that are too long are halved, on the surface as well; triangles without such edges stay.
+TEST(AutomaticSurface, IsKeptButForEdgesThatAreTooLong) {
+  Surface surface = plate();
+  for (const auto& p : ball(6).vertices) {
+    surface.vertices.push_back({p[0] / 8 + 3, p[1] / 8, p[2] / 8});
+  }
+  for (const auto& [a, b, c] : ball(6).triangles)
+    surface.triangles.push_back({a + 8, b + 8, c + 8});
+  for (const double bound : {2.0, 0.7, 0.3, 0.13}) {
+    for (const bool field : {false, true}) {
+      Options options = automatic();
+      if (field) {
+        options.size_field = {{{0, 0, 0}, bound}};
+      } else {
+        options.max_edge = bound;
+      }
+      const Result result = delmesher::tetrahedralize(surface, options);
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      EXPECT_TRUE(is_kept(result)) << bound;
+      EXPECT_EQ(result.statistics.left_on_surface, 0U);
+      const VerifyReport report = verified(surface, result, options);
+      EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+      EXPECT_EQ(report.unproven.size(), 1U) << to_text(report);  // that it is kept
+      const oracles::OracleReport* edges = report.find(field ? "sizes" : "edges");
+      ASSERT_NE(edges, nullptr);
+      EXPECT_GT(edges->checked, 0U);
+      const oracles::OracleReport* kept = report.find("kept");
+      ASSERT_NE(kept, nullptr);
+      EXPECT_EQ(kept->figure(oracles::kLongTriangles), kept->figure(oracles::kSplitTriangles));
+      if (!field) {  // of the plate all have an edge of 1 at least, of the ball none of 0.13
+        EXPECT_EQ(kept->figure(oracles::kSplitTriangles), bound < 1 ? 12 : 0);
+      }
+    }
+  }
 }
 
 // Without its refined mesh the record of a split surface is taken for one of a kept surface. Then

@@ -324,8 +324,9 @@ std::string remeshed_text(std::size_t given, std::size_t remeshed, double tolera
          ", within " + number_short(tolerance);
 }
 
-std::string kept_text(const std::string& file, const Statistics& s) {
-  return file + ": the surface is kept; bounded angles (--surface split) would take more than " +
+std::string kept_text(const std::string& file, const Statistics& s, bool bounds_edges) {
+  return file + ": the surface is kept" + (bounds_edges ? " but for edges that are too long" : "") +
+         "; bounded angles (--surface split) would take more than " +
          std::to_string(static_cast<std::uint64_t>(s.predicted_tetrahedra)) +
          " tetrahedra, as predicted";
 }

@@ -168,7 +168,11 @@ int Runner::mesh() {
     remark(command_.input + ": " +
            remeshed_text(surface_.triangles.size(), s.remeshed_triangles, s.tolerance));
   }
-  if (s.ladder[Rung::keep_surface] > 0) remark(kept_text(command_.input, s));
+  if (s.ladder[Rung::keep_surface] > 0) {
+    const bool bounds_edges =
+        options != nullptr && (bound_on_edges(*options) > 0 || !sizes_.empty());
+    remark(kept_text(command_.input, s, bounds_edges));
+  }
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
   if (result.status.ok() && options != nullptr) {

@@ -105,8 +105,8 @@ inline constexpr std::tuple kTable{
         &Options::feature, &RemeshOptions::feature),
     Row({.name = "surface",
          .help = "split: add vertices where angles call for them; keep: each triangle is one face, "
-                 "for few tetrahedra without a bound on angles; auto: keep where split takes more "
-                 "than four times as many",
+                 "for few tetrahedra without a bound on angles; auto: where split takes more than "
+                 "four times as many, keep, but halve edges longer than asked for",
          .bounds = {.high = 2},
          .promised = true,
          .with_kept_surface = true,

@@ -22,6 +22,7 @@ enum class SurfaceChoice : std::uint8_t {
   split,  // vertices are added to it where angles call for them
   keep,  // each is one face of the mesh, and no vertex is added: few tetrahedra, no bound on angles
   // Split, unless that is predicted to take more than four times the tetrahedra of a kept surface.
+  // Then it is kept, but for edges longer than asked for, which are halved.
   automatic
 };
 
@@ -72,8 +73,7 @@ struct Options : Limits {
   // of other than two triangles do; where lines end, meet, or bend by as much, vertices stay.
   double feature = 40;
   // A surface is kept with the options that have Text::with_kept_surface in option_table.h; the
-  // others have to be as they are by default. `automatic` is `split` with them, with a size field,
-  // and if the surface has edges above max_edge.
+  // others have to be as they are by default. `automatic` is `split` with them.
   SurfaceChoice surface = SurfaceChoice::automatic;
   Regions regions = Regions::solid;
   std::vector<std::string> region_names;

@@ -42,6 +42,10 @@ class Improvement {
   void run() {
     if (options_.keep_surface) {
       clear_surface();
+      if (options_.halve_edges) {
+        first_half_ = static_cast<VertexId>(state_.mesh.vertices());
+        halve();
+      }
       coarsen();
       Filling(state_, goals_, control_).run();
     }
@@ -72,7 +76,7 @@ class Improvement {
   }
 
   std::uint64_t spared() const { return spared_; }
-  // Vertices on the surface that are not of the input.
+  // Vertices on the surface that are not of the input, and halve no edge.
   std::uint64_t left() const {
     std::uint64_t left = 0;
     for (VertexId v = 0; v < state_.mesh.vertices(); ++v) left += is_to_leave(v) ? 1 : 0;
@@ -277,8 +281,8 @@ class Improvement {
                free, [&](VertexId w) { return collapse_.run(w, state_.to_reach(0)); }) > 0;
   }
   bool is_to_leave(VertexId v) const {
-    return state_.mesh.incident(v) != kNone && state_.mobility(v) != Mobility::free &&
-           !state_.points().is_corner(state_.point(v));
+    return v < first_half_ && state_.mesh.incident(v) != kNone &&
+           state_.mobility(v) != Mobility::free && !state_.points().is_corner(state_.point(v));
   }
 
   // Points on the surface that flat tetrahedra have kept there so far, and what they leave behind.
@@ -296,10 +300,12 @@ class Improvement {
   // Edges that are still too long were there before the filling. What replaces them is repaired.
   void shorten() {
     measure_by(Measure::shape);
-    if (Shortening(state_, control_).run() == 0) return;
+    if (halve() == 0) return;
     repair(kNotGood);
     mend();
   }
+
+  std::size_t halve() { return Shortening(state_, options_.halve_edges, control_).run(); }
 
   bool is_to_be_tried(TetId t, float limit) const {
     return mending_ ? state_.dihedral_score(t) < State::kMended : state_.score(t) < limit;
@@ -379,6 +385,7 @@ class Improvement {
   Relocation relocation_;
   bool insert_ = false, in_rounds_ = false, mending_ = false;
   std::uint64_t spared_ = 0;
+  VertexId first_half_ = kNone;           // the first of those that halve edges of the surface
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
   // When tetrahedra and vertices were tried in vain: the clock plus 1; per slot and per vertex.

@@ -43,12 +43,6 @@ bool PlanarRuns::is_too_heavy(const Result& best) const {
          (best.status.limit == Limit::size || best.status.limit == Limit::precision);
 }
 
-Options PlanarRuns::kept_options() const {
-  Options options = in_time_left(first_);
-  options.surface = SurfaceChoice::keep;
-  return options;
-}
-
 Options PlanarRuns::in_time_left(Options options) const {
   if (first_.time_limit_seconds > 0) options.time_limit_seconds = std::max(seconds_left(), 1e-9);
   return options;

@@ -30,7 +30,7 @@ class PlanarRuns {
   // than doubles?
   bool is_too_heavy(const Result& best) const;
   // The options of the run after that.
-  Options kept_options() const;
+  Options kept_options() const { return in_time_left(first_); }
   // `best` becomes the result of such a run if it is better, if that run was interrupted, or if no
   // way led back from `best`. If it does not, its statistics name the limit that ended that run.
   static void keep_better(Result result, Result& best);

@@ -102,25 +102,10 @@ std::string combination_defect(const JobOptions& /*given*/) {
   return {};
 }
 
-// Has every edge of the surface the length asked for? Others have to be split.
-bool is_fine_enough(const Surface& surface, const Options& options) {
-  const double longest = options.max_edge * options.max_edge;
-  return options.size_field.empty() &&
-         (longest == 0 || std::ranges::all_of(surface.triangles, [&](const auto& t) {
-            const auto is_short = [&](int i, int j) {
-              const auto& at = surface.vertices;
-              return squared_norm(subtract(at[t[i]], at[t[j]])) <= longest;
-            };
-            return is_short(0, 1) && is_short(1, 2) && is_short(2, 0);
-          }));
-}
-
 }  // namespace
 
-SurfaceChoice surface_choice(const Options& given, const Surface& surface) {
-  if (given.regions != Regions::solid) return SurfaceChoice::keep;
-  const bool may_keep =
-      useless_if_kept(given).empty() && !given.want_chamfered && is_fine_enough(surface, given);
+SurfaceChoice surface_choice(const Options& given) {
+  const bool may_keep = useless_if_kept(given).empty() && !given.want_chamfered;
   return given.surface == SurfaceChoice::automatic && !may_keep ? SurfaceChoice::split
                                                                 : given.surface;
 }

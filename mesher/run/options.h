@@ -11,7 +11,7 @@ namespace delmesher::run {
 template <class JobOptions>
 std::string options_defect(const JobOptions& options);
 
-// SurfaceChoice::automatic is SurfaceChoice::split if options or edges of the surface need that.
-SurfaceChoice surface_choice(const Options& options, const Surface& surface);
+// SurfaceChoice::automatic is SurfaceChoice::split if options need that.
+SurfaceChoice surface_choice(const Options& options);
 
 }  // namespace delmesher::run

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
+
+#include "oracles/verdict/edge_sizes.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -26,11 +30,35 @@ std::vector<Position> used(const std::vector<Corners>& triangles) {
   return places;
 }
 
+class EdgeBound {
+ public:
+  explicit EdgeBound(const Promise& promise)
+      : most_(promise.max_edge * EdgeSizes::kMost),
+        sizes_(promise.size_field, promise.size_growth) {}
+
+  // Is an edge of the triangle too long?
+  bool excludes(const Corners& at) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Position &a = at[k], &b = at[(k + 1) % 3];
+      const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      if (most_ > 0 && length > most_) return true;
+      if (!sizes_.empty() && sizes_.excess(a, b) > EdgeSizes::kMost) return true;
+    }
+    return false;
+  }
+
+ private:
+  double most_;  // 0: any
+  EdgeSizes sizes_;
+};
+
 }  // namespace
 
 OracleReport check_kept(const Polyhedron& input, const MeshFile& mesh, std::span<const Face> faces,
-                        Index first) {
+                        Index first, const Promise& promise) {
   OracleReport report("kept", "triangles");
+  const EdgeBound bound(promise);
+  std::uint64_t split = 0, too_long = 0;
   report.checked = input.triangles.size();
   std::vector<Corners> given, made;
   for (const Face& triangle : input.triangles) {
@@ -43,16 +71,20 @@ OracleReport check_kept(const Polyhedron& input, const MeshFile& mesh, std::span
     const auto [begin, end] = std::equal_range(made.begin(), made.end(), given[t]);
     const auto free = std::find(taken.begin() + (begin - made.begin()),
                                 taken.begin() + (end - made.begin()), std::uint8_t{0});
-    if (free == taken.begin() + (end - made.begin())) {
-      report.fail("triangle " + std::to_string(t) + " is not a face of the mesh");
-    } else {
+    const bool is_long = promise.halves && bound.excludes(given[t]);
+    too_long += is_long ? 1 : 0;
+    if (free != taken.begin() + (end - made.begin())) {
       *free = 1;
+      continue;
     }
+    ++split;
+    if (!is_long) report.fail("triangle " + std::to_string(t) + " is not a face of the mesh");
   }
   std::vector<Position> added;
   std::ranges::set_difference(used(made), used(given), std::back_inserter(added));
-  report.figures = {{kSplitTriangles, static_cast<double>(report.violations)},
+  report.figures = {{kSplitTriangles, static_cast<double>(split)},
                     {kAddedVertices, static_cast<double>(added.size())}};
+  if (promise.halves) report.figures.emplace_back(kLongTriangles, static_cast<double>(too_long));
   return report;
 }
 

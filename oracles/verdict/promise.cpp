@@ -619,7 +619,7 @@ class PromiseCheck {
 
 }  // namespace
 
-void Promise::settle(const ExactRecord& record, double longest_edge) {
+void Promise::settle(const ExactRecord& record) {
   if (!may_keep) return;
   Promise usual;
   set_defaults(Task::mesh, false, usual);
@@ -631,10 +631,9 @@ void Promise::settle(const ExactRecord& record, double longest_edge) {
            &Promise::bridges, &Promise::steiner_point, &Promise::kept_points, &Promise::enrichment,
            &Promise::filter_pairs, &Promise::filter_chamfered, &Promise::no_guard, &Promise::order,
            &Promise::slivers, &Promise::simplify_bridges, &Promise::save_chamfered) &&
-      region == usual.region && size_field.empty() &&
-      (max_edge == 0 || longest_edge <= max_edge * EdgeSizes::kMost);
+      region == usual.region;
   if (!may_keep || !record.refined.empty() || !record.segments.empty()) return;
-  keep = true;
+  halves = true;
   set_kept(*this);
 }
 

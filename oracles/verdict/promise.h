@@ -40,6 +40,7 @@ struct Promise {
   // local operations have changed.
   bool keep = false;
   bool may_keep = false;  // or split: the record shows which
+  bool halves = false;    // of a kept surface: edges longer than promised are split
   // Every part of space that the triangles bound is a region of its own; the surface is kept.
   bool all_regions = false;
   // Of these only the largest is written, or those with one of these names.
@@ -81,10 +82,10 @@ struct Promise {
   std::vector<std::string> of_record = {};
   double max_vertices = 0;  // 0: no limit
 
-  // If the surface may be kept, and the record is of no refined mesh, then it was to be kept. With
-  // an option that only the refinement uses it may not be, nor with a bound on edges below the
-  // longest one of the input (input units).
-  void settle(const delmesher::ExactRecord& record, double longest_edge);
+  // If the surface may be kept, and the record is of no refined mesh, then it was to be kept, but
+  // for edges that are longer than promised. With an option that only the refinement uses it may
+  // not be.
+  void settle(const delmesher::ExactRecord& record);
 
   // The option that max_edge is of.
   const char* bound_on_edges() const { return edges_by_size ? "--size" : "--max-edge"; }
