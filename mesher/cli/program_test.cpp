@@ -86,11 +86,14 @@ TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   EXPECT_TRUE(text("err.txt").starts_with("mesh.mesh: 8 vertices, 6 tetrahedra in "));
   EXPECT_TRUE(text("err.txt").ends_with(
       " s; dihedral angles 45.00 to 90.00 degrees, 0 tetrahedra below 5, the smallest at (0, 0, "
-      "0.5); smallest face angle 35.26; mean shape 0.72 (1 is regular)\n"))
+      "0.5); smallest face angle 35.26; mean shape 0.72 (1 is regular); coarse for a solver: "
+      "--size 0.17 makes about 1900\n"))
       << text("err.txt");
   EXPECT_GT(text("mesh.mesh").size(), 100U);
   EXPECT_EQ(run("in.off -o mesh.mesh -q"), 0);
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");
+  EXPECT_EQ(run("in.off -o mesh.mesh --size 0.17"), 0);
+  EXPECT_EQ(text("err.txt").find("coarse"), std::string::npos) << text("err.txt");
 }
 
 TEST_F(Program, WallsAreSplitInEveryFormat) {

@@ -185,14 +185,16 @@ int Runner::mesh() {
       result.warnings.push_back(std::move(warning));
     }
   }
+  const std::string coarse =
+      options != nullptr ? coarseness_text(result, *options, sizes_) : std::string();
   return finish({result.status, result.warnings,
                  [&](io::OutputSet& outputs) { return write_all(outputs, result); },
                  [&] { return stats_json(command_, result, facts_); },
                  [&] {
-                   return conclude(
-                       s.phase_seconds,
-                       {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
-                        s.rounding_inverted, s.rounding_flat, "tetrahedra", quality_text(result)});
+                   return conclude(s.phase_seconds,
+                                   {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
+                                    s.rounding_inverted, s.rounding_flat, "tetrahedra",
+                                    quality_text(result) + coarse});
                  }});
 }
 
