@@ -16,6 +16,7 @@
 struct delmesher_options {
   std::map<std::string, double, std::less<>> values;
   std::vector<delmesher::SizeSource> size_field;
+  std::vector<delmesher::RegionPoint> region_points;
   std::function<bool(const delmesher::Progress&)> progress;
 };
 
@@ -80,6 +81,7 @@ std::string take(const delmesher_options& given, JobOptions& options) {
   } else if (!given.size_field.empty()) {
     return "size_field";
   }
+  if constexpr (requires { options.region_points; }) options.region_points = given.region_points;
   return {};
 }
 
@@ -166,6 +168,18 @@ int delmesher_options_size_field(delmesher_options* options, const double* sourc
   return 0;
 }
 
+int delmesher_options_region_point(delmesher_options* options, const double* xyz, const char* name,
+                                   double max_edge, int is_hole) {
+  if (options == nullptr || xyz == nullptr) return -1;
+  try {
+    options->region_points.push_back(
+        {{xyz[0], xyz[1], xyz[2]}, name != nullptr ? name : "", max_edge, is_hole != 0});
+  } catch (...) {
+    return -1;
+  }
+  return 0;
+}
+
 void delmesher_options_progress(delmesher_options* options, delmesher_progress progress,
                                 void* user) {
   if (options == nullptr) return;
@@ -219,6 +233,19 @@ size_t delmesher_result_regions(const delmesher_result* result, const int32_t** 
   const auto& regions = result->value.mesh.regions;
   give(regions.data(), numbers);
   return regions.size();
+}
+
+const char* delmesher_result_region_name(const delmesher_result* result, int32_t number) {
+  if (result == nullptr || number < 1) return "";
+  const auto& regions = result->value.regions;
+  const auto n = static_cast<std::size_t>(number - 1);
+  return n < regions.size() ? regions[n].name.c_str() : "";
+}
+
+const char* delmesher_result_wall_name(const delmesher_result* result, int32_t label) {
+  if (result == nullptr) return "";
+  const auto known = result->value.wall_names.find(label);
+  return known != result->value.wall_names.end() ? known->second.c_str() : "";
 }
 
 size_t delmesher_result_boundary(const delmesher_result* result, const uint32_t** corners,

@@ -61,6 +61,11 @@ int delmesher_options_set(delmesher_options* options, const char* name, double v
 int delmesher_options_size_field(delmesher_options* options, const double* sources,
                                  size_t n_sources);
 
+/* A point that tells of the region around it, with the option regions: its name or NULL, its
+ * longest edge or 0, and whether it is left out. 0, or -1 if there is no memory. */
+int delmesher_options_region_point(delmesher_options* options, const double* xyz, const char* name,
+                                   double max_edge, int is_hole);
+
 /* Called several times a second by the thread that called the library. `done` is the fraction of
  * the phase, negative if unknown. Any answer but 0 ends the run, with DELMESHER_INTERRUPTED. */
 typedef int (*delmesher_progress)(void* user, const char* phase, double done, uint64_t vertices);
@@ -90,6 +95,10 @@ size_t delmesher_result_tetrahedra(const delmesher_result* result, const uint32_
                                    const uint8_t** inside);
 /* A number from 1 on for each tetrahedron, with the option regions = 1 (all); else nothing. */
 size_t delmesher_result_regions(const delmesher_result* result, const int32_t** numbers);
+/* What a region is called by a point in it; empty if it is not. */
+const char* delmesher_result_region_name(const delmesher_result* result, int32_t number);
+/* What a label is called that is of one side of a wall (the option split_walls = 1); else empty. */
+const char* delmesher_result_wall_name(const delmesher_result* result, int32_t label);
 /* The triangles that tile the surface: three numbers of vertices each, the label of the input, and
  * the facet. */
 size_t delmesher_result_boundary(const delmesher_result* result, const uint32_t** corners,

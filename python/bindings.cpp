@@ -93,7 +93,10 @@ std::string type_of(const options::Value& option) {
     if (word.word.empty()) continue;
     type += (type.empty() ? "'" : " or '") + std::string(word.word) + "'";
   }
-  if (option.text.lists == options::Text::Lists::regions) type += " or list of str";
+  if (option.text.lists == options::Text::Lists::regions ||
+      option.text.lists == options::Text::Lists::walls) {
+    type += " or list of str";
+  }
   if (option.text.lists == options::Text::Lists::values_of_regions) type += " or dict";
   return type;
 }
@@ -112,6 +115,16 @@ bool set_option(JobOptions& job, const std::string& name, const py::handle& valu
   if constexpr (requires { job.label_names; }) {
     if (name == "label_names") {
       job.label_names = py::cast<std::map<std::int32_t, std::string>>(value);
+      return true;
+    }
+  }
+  if constexpr (requires { job.region_points; }) {
+    if (name == "region_points") {
+      for (const auto& item : py::cast<std::vector<py::tuple>>(value)) {
+        auto point = py::cast<std::array<double, 3>>(item[0]);
+        job.region_points.push_back({point, py::cast<std::string>(item[1]),
+                                     py::cast<double>(item[2]), py::cast<bool>(item[3])});
+      }
       return true;
     }
   }
@@ -298,11 +311,15 @@ py::dict dict_of(Result&& result) {
   stats["flat"] = s.rounding_flat;
   stats["max_surface_deviation"] = s.max_surface_deviation;
   d["stats"] = stats;
-  py::dict labels;  // of the regions that are in a solid
+  py::dict labels, names;  // of the regions that are in a solid, or have a point with a name
   for (std::size_t n = 0; n < result.regions.size(); ++n) {
-    if (result.regions[n].label) labels[py::int_(n + 1)] = *result.regions[n].label;
+    const MeshRegion& region = result.regions[n];
+    if (region.label) labels[py::int_(n + 1)] = *region.label;
+    if (!region.name.empty()) names[py::int_(n + 1)] = region.name;
   }
   d["region_labels"] = labels;
+  d["region_names"] = names;
+  d["wall_names"] = result.wall_names;
   put_mesh(d, std::move(result.mesh));
   return d;
 }
@@ -507,6 +524,11 @@ py::dict read_surface_file(const std::string& path) {
   d["triangles"] = taken(std::move(read.surface.triangles));
   d["labels"] = taken(std::move(read.surface.labels));
   d["names"] = read.names;
+  py::list region_points;
+  for (const RegionPoint& p : read.region_points) {
+    region_points.append(py::make_tuple(p.point, p.name, p.max_edge, p.is_hole));
+  }
+  d["region_points"] = region_points;
   d["warnings"] = read.warnings;
   return d;
 }

@@ -373,6 +373,29 @@ def test_points_without_triangles():
     assert any("1 point left out" in line for line in mesh.warnings)
 
 
+def test_region_points_and_split_walls(tmp_path):
+    points = np.vstack([POINTS, POINTS[POINTS[:, 0] == 1] + [1, 0, 0]])
+    second = np.array([1, 8, 3, 9, 5, 10, 7, 11])[TRIANGLES]
+    triangles = np.vstack([TRIANGLES, second])
+    told = [tetproof.RegionPoint((0.5, 0.5, 0.4), "left"), tetproof.RegionPoint((1.5, 0.5, 0.4), "right", max_edge=0.9)]
+    mesh = tetproof.mesh(points, triangles, regions="all", region_points=told, split_walls="all")
+    assert sorted(mesh.region_names.values()) == ["left", "right"]
+    assert sorted(mesh.names.values()) == ["left|right", "right|left"]
+    assert len(mesh.points) == len(np.unique(mesh.points, axis=0)) + 4
+    assert len(set(mesh.region("left").tetrahedra.ravel())) == len(mesh.region("left").points)
+    assert np.isclose(mesh.region("right").volumes().sum(), 1)
+    with pytest.raises(ValueError, match="no wall is called"):
+        tetproof.mesh(points, triangles, regions="all", split_walls=["copper|air"])
+    hole = [tetproof.RegionPoint((0.5, 0.5, 0.4), is_hole=True)]
+    assert np.isclose(tetproof.mesh(points, triangles, regions="all", region_points=hole).volumes().sum(), 1)
+    faces = "".join("1\n3 %d %d %d\n" % tuple(t) for t in triangles.tolist())
+    nodes = "".join("%d %g %g %g\n" % (n, *p) for n, p in enumerate(points.tolist()))
+    path = tmp_path / "two.poly"
+    path.write_text("%d 3\n%s%d\n%s0\n1\n0 0.5 0.5 0.4 7\n" % (len(points), nodes, len(triangles), faces))
+    assert tetproof.read(path).region_points == [tetproof.RegionPoint([0.5, 0.5, 0.4], "7", 0.0, False)]
+    assert list(tetproof.mesh(path, regions="all").region_names.values()) == ["7"]
+
+
 def test_a_size_field():
     corner, fine = np.zeros(3), [[0, 0, 0, 0.02]]
     mesh = tetproof.mesh(POINTS, TRIANGLES, size_field=fine, size_growth=0.5, improve=False, region="interior")

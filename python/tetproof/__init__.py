@@ -13,11 +13,11 @@ from ._jobs import (RepairedPlane, cdt, check, check_plane, improve, label_by_an
                     write)
 from ._meshes import Mesh, PlaneMesh, TenNodes
 from ._runs import Error, Interrupted, InvalidMesh, InvalidSurface, LimitReached, PlaneReport, Progress as Progress, Report
-from ._surfaces import Defect, Face, Repaired, Surface
+from ._surfaces import Defect, Face, RegionPoint, Repaired, Surface
 
 __version__ = _core.version
 __all__ = ["Defect", "Error", "Face", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh", "PlaneReport",
-           "Repaired", "RepairedPlane", "Report", "Surface", "TenNodes", "cdt", "check", "check_plane", "improve", "label_by_angle", "mesh", "plane",
+           "RegionPoint", "Repaired", "RepairedPlane", "Report", "Surface", "TenNodes", "cdt", "check", "check_plane", "improve", "label_by_angle", "mesh", "plane",
            "read", "read_mesh", "remesh", "repair", "repair_plane", "write"]
 
 for _name in __all__:

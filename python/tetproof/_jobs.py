@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from ._meshes import Mesh, PlaneMesh, _fields, _tetrahedra
 from ._runs import PlaneReport, Progress, Report, _in_python, _of_planes, _options, _raise, _raise_plane, _run, _with_options
-from ._surfaces import Array, Defect, Repaired, Surface, _indices, _labels, _points, _signed, _surface
+from ._surfaces import Array, Defect, RegionPoint, Repaired, Surface, _indices, _labels, _points, _signed, _surface
 
 
 def _read_first(points: Any, triangles: Any) -> Any:
@@ -22,27 +22,34 @@ def _mesh(result: Dict[str, Any], names: Optional[Mapping[int, str]] = None) -> 
     fields = {f.name: _signed(result[f.name]) for f in dataclasses.fields(Mesh) if f.name in result}
     fields["warnings"] = [_in_python(line) for line in fields["warnings"]]
     fields["inside"] = fields["inside"].view(np.bool_)
-    fields["names"] = dict(names if names is not None else result.get("names", {}))
+    fields["names"] = {**(names if names is not None else result.get("names", {})), **result.get("wall_names", {})}
     of_regions = {region: fields["names"].get(label) for region, label in result.get("region_labels", {}).items()}
-    if of_regions:
-        fields["region_names"] = {region: name for region, name in of_regions.items() if name is not None}
+    of_regions.update(result.get("region_names", {}))
+    fields["region_names"] = {region: name for region, name in of_regions.items() if name is not None}
     return Mesh(**fields)
 
 
-def _run_on_surface(job: str, points: Any, triangles: Any, labels: Any, progress: Any,
-                    options: Mapping[str, Any]) -> Tuple[Dict[str, Any], Optional[Mapping[int, str]]]:
+def _region_point(given: Any) -> Tuple[Any, str, float, bool]:
+    point = RegionPoint(*given)
+    return tuple(map(float, point.point)), point.name, float(point.max_edge), bool(point.is_hole)
+
+
+def _run_on_surface(job: str, points: Any, triangles: Any, labels: Any, progress: Any, options: Mapping[str, Any],
+                    region_points: Any = None) -> Tuple[Dict[str, Any], Optional[Mapping[int, str]]]:
     """The result, and what the labels are called."""
     points = _read_first(points, triangles)
     arrays = _surface(points, triangles, labels)
     names = getattr(points, "names", None)
-    more = {"label_names": dict(names or {})} if job == "mesh" else {}
+    region_points = getattr(points, "region_points", ()) if region_points is None else region_points
+    more: Dict[str, Any] = {"label_names": dict(names or {}), "region_points": list(map(_region_point, region_points))} if job == "mesh" else {}
     result = _run(job, arrays, progress, options, **more)
     _raise(result, lambda: check(*arrays[:2]))
     return result, names
 
 
 @_with_options
-def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
+def mesh(points: Any, triangles: Any = None, labels: Any = None, *, region_points: Any = None, progress: Union[Progress, bool, None] = None,
+         **options: Any) -> Mesh:
     """Mesh the inside of a closed surface.
 
     Parameters
@@ -54,7 +61,9 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
         Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
     labels : (m,) array_like of int, optional
         Come back on the boundary. With ``regions="all"`` a region has the name of the smallest solid that the triangles of a label bound
-        around it. Names of regions may be a list; of `max_edge` also ``{"copper": 0.2}``, with None for the rest.
+        around it. Names of regions and walls may be a list; of `max_edge` also ``{"copper": 0.2}``, with None for the rest.
+    region_points : list of RegionPoint, optional
+        With `regions`: names, longest edges and holes of the regions around points. Else those of the surface.
     progress : callable or True, optional
         ``progress(phase, done, vertices)``, called several times a second; False ends the run with `Interrupted`, an
         exception ends it with that. True shows a bar.
@@ -76,7 +85,7 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, progress: Un
     ValueError, TypeError
         An option or an array makes no sense.
     """
-    return _mesh(*_run_on_surface("mesh", points, triangles, labels, progress, options))
+    return _mesh(*_run_on_surface("mesh", points, triangles, labels, progress, options, region_points))
 
 
 @_with_options
@@ -299,6 +308,7 @@ def read(path: "Union[str, os.PathLike[str]]") -> Surface:
     result["triangles"] = _signed(result["triangles"])
     if not len(result["labels"]):
         result["labels"] = np.zeros(len(result["triangles"]), np.int32)
+    result["region_points"] = [RegionPoint(*point) for point in result["region_points"]]
     return Surface(**result)
 
 

@@ -59,6 +59,14 @@ class Defect(NamedTuple):
     triangles: Array
 
 
+class RegionPoint(NamedTuple):
+    """What the region around a point is called, how long its edges may be (0: any), or that it is left out."""
+    point: Tuple[float, float, float]
+    name: str = ""
+    max_edge: float = 0
+    is_hole: bool = False
+
+
 class Face(NamedTuple):
     """The triangles of one label of a surface: how many, their area, and the two corners of their bounding box. The shape is "planar"
     (then `direction` is the normal, outwards), "cylindrical" (then it is that of the axis) or "other" (then it is zero), within a

@@ -92,6 +92,19 @@ int main(void) {
   if (calls == 0 || delmesher_result_status(result) != DELMESHER_INTERRUPTED) return fail("went on");
   delmesher_result_free(result);
 
+  delmesher_options* regions = delmesher_options_new();
+  const double middle[3] = {0.5, 0.5, 0.5};
+  if (delmesher_options_set(regions, "regions", 1) != 0) return fail("regions is no option");
+  if (delmesher_options_set(regions, "split_walls", 1) != 0) return fail("split_walls is no option");
+  if (delmesher_options_region_point(regions, middle, "core", 0, 0) != 0) return fail("no region point");
+  if (delmesher_options_region_point(regions, NULL, "core", 0, 0) != -1) return fail("a region point nowhere");
+  result = delmesher_tetrahedralize(&cube, regions);
+  if (delmesher_result_status(result) != DELMESHER_OK) return fail(delmesher_result_message(result));
+  if (strcmp(delmesher_result_region_name(result, 1), "core") != 0) return fail("the region has another name");
+  if (*delmesher_result_region_name(result, 2) != 0 || *delmesher_result_wall_name(result, 7) != 0) return fail("a name of nothing");
+  delmesher_result_free(result);
+  delmesher_options_free(regions);
+
   cube.n_triangles = 11;
   result = delmesher_tetrahedralize(&cube, NULL);
   if (delmesher_result_status(result) != DELMESHER_INVALID_SURFACE) return fail("an open cube was meshed");
