@@ -93,12 +93,15 @@ class Surface:
     labels : (m,) int32
     names : dict of int to str
         What labels are called, where a file says so.
+    region_points : list of RegionPoint
+        Of a .poly or .smesh.
     """
     points: Array
     triangles: Array
     labels: Array
     names: Dict[int, str] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
+    region_points: List[RegionPoint] = dataclasses.field(default_factory=list)
 
     def __repr__(self) -> str:
         return _line(type(self).__name__, (len(self.points), "points"), (len(self.triangles), "triangles"),
