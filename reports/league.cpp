@@ -206,8 +206,10 @@ std::vector<Table> group_tables(const Selection& selection) {
     std::vector<std::string> members;
     std::copy_if(all.begin(), all.end(), std::back_inserter(members),
                  [&](const auto& m) { return !selection.ok_runs(m).empty(); });
+    const bool only_ours =
+        std::ranges::all_of(members, [](const auto& m) { return m.starts_with(kOurs); });
     const auto common = selection.common_models(members);
-    if (members.size() < 2 || common.empty()) continue;
+    if (members.size() < 2 || only_ours || common.empty()) continue;
     Table& table = tables.emplace_back();
     table.name = fmt::format("league-group-{}", tables.size());
     table.title =
@@ -275,7 +277,7 @@ Table pair_table(const Selection& selection) {
 }
 
 Table failure_kinds(const Selection& selection) {
-  constexpr std::size_t kMostKinds = 2, kMostLetters = 120, kMostModels = 3;
+  constexpr std::size_t kMostKinds = 2, kMostLetters = 80, kMostModels = 3;
   Table table;
   table.name = "league-failures";
   table.title = "How they fail";
