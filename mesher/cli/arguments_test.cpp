@@ -331,8 +331,7 @@ TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
   // command.
   expect_usage_error({"in.off", "-o", "a.mesh", "--delta", "-1"}, "out of range: -1");
   EXPECT_EQ(parse({"mesh", "meshes", "-o", "a.mesh"}).command.input, "meshes");
-  expect_usage_error({"in.off", "-o", "a.mesh", "--tau", "2"},
-                     "out of range: 2 (at least 0, at most 1)");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--tau", "2"}, "out of range: 2 (0 to 1)");
   expect_usage_error({"in.off", "-o", "a.mesh", "--max-edge", "0"}, "out of range: 0 (above 0)");
   expect_usage_error({"in.off", "-o", "a.mesh", "--size-growth", "2", "--size-field", "s"},
                      "out of range: 2");
@@ -375,11 +374,10 @@ TEST(Arguments, HelpSaysTheRanges) {
 std::string options_page() {
   std::string page =
       "# Options of delmesher\n\n"
-      "Written by `TETPROOF_WRITE_DOCS=1` and the test `Arguments.OptionsPageIsUpToDate` from the "
-      "help of the commands; edit\n`mesher/delmesher/option_table.h` instead. Lengths are in the "
-      "units of the input. In parentheses stand the default and the\nvalues that are accepted. C "
-      "and Python have the same names, with `_` for `-`, and the choices of `--as-paper` as\n"
-      "`paper_NAME`, with `_` for `-`, too.\n";
+      "Written by `TETPROOF_WRITE_DOCS=1` and the test `Arguments.OptionsPageIsUpToDate` from "
+      "`mesher/delmesher/option_table.h`. Lengths are in\nthe units of the input; in parentheses "
+      "stand the default and the values accepted. C and Python have the same names, with `_` for "
+      "`-`;\nchoices of `--as-paper` are `paper_NAME` there.\n";
   std::set<std::string> of_mesh;  // the rows of the first job
   for (const JobCase& job : job_cases()) {
     page += "\n## `" + job.arguments[0] + "`\n\n| option | meaning |\n|---|---|\n";
@@ -398,7 +396,10 @@ std::string options_page() {
         if (first || !of_mesh.contains(text)) {
           page += text;
         } else {
-          as_for_mesh += (as_for_mesh.empty() ? "" : ", ") + option;
+          // Without what it takes.
+          std::string name = row.substr(0, gap);
+          if (const auto value = name.rfind(' '); name[value + 1] != '-') name.resize(value);
+          as_for_mesh += (as_for_mesh.empty() ? "`" : ", `") + name + "`";
         }
       }
       row.clear();

@@ -39,8 +39,11 @@ std::string value_text(const Value& option) {
   return option.value < 0 ? share_text(option.value) : number_text(option.value);
 }
 
-// "above 0, at most 30"
+// "0 to 1", "above 0, at most 30"
 std::string range_text(const Bounds& bounds) {
+  if (!bounds.above_low && bounds.high != options::kNoBound) {
+    return number_text(bounds.low) + " to " + number_text(bounds.high);
+  }
   const std::string low = (bounds.above_low ? "above " : "at least ") + number_text(bounds.low);
   return bounds.high == options::kNoBound ? low : low + ", at most " + number_text(bounds.high);
 }
