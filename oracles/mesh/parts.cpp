@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "oracles/base/distances.h"
-#include "oracles/base/edge_key.h"
 #include "oracles/base/union_find.h"
 #include "oracles/mesh/region_points.h"
+#include "oracles/mesh/shells.h"
 #include "oracles/mesh/solids.h"
 #include "oracles/surface/input_surface.h"
 #include "oracles/verdict/edge_sizes.h"
@@ -76,7 +76,7 @@ class Parts {
         report->undecided = report->violations > 0;
       }
       result_.parts.notes.emplace_back(
-          "triangles have vertices that are no corners: whether faces tile them is not decided");
+          "triangles have vertices that are not corners: whether faces tile them is not decided");
     }
     return std::move(result_);
   }
@@ -146,6 +146,7 @@ class Parts {
       triangles_[at->second].labels.push_back(input_.labels.empty() ? 0 : input_.labels[t]);
     }
     by_corners_ = std::move(known);
+    for (const Triangle& t : triangles_) corners_.push_back(t.corners);
   }
 
   Index triangle_of(Face face) const {
@@ -154,7 +155,7 @@ class Parts {
     return at == by_corners_.end() ? kNobody : at->second;
   }
 
-  // Tetrahedra across faces that are no triangles become one part.
+  // Tetrahedra across faces that are not triangles become one part.
   void connect() {
     for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
       for (int i = 0; i < 4; ++i) {
@@ -192,7 +193,7 @@ class Parts {
     }
   }
 
-  // Triangles that are no faces are outside of all tetrahedra, and so are both of their sides.
+  // Triangles that are not faces are outside of all tetrahedra, and so are both of their sides.
   void check_bare() {
     std::uint64_t bare = 0;
     for (Index n = 0; n < triangles_.size(); ++n) {
@@ -208,102 +209,22 @@ class Parts {
     result_.parts.figures.emplace_back("triangles that bound nothing", static_cast<double>(bare));
   }
 
-  // A side of a triangle, front or back.
-  static Index side(Index triangle, bool behind) { return 2 * triangle + (behind ? 1 : 0); }
-
-  struct AtEdge {
-    Index triangle, apex;
-    bool runs_along;  // does the triangle run from the smaller to the larger end?
-  };
-
-  // Joins the empty sides around each edge.
   void check_missing() {
-    std::map<std::uint64_t, std::vector<AtEdge>> edges;
-    for (Index n = 0; n < triangles_.size(); ++n) {
-      const Face& c = triangles_[n].corners;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index a = c[k], b = c[(k + 1) % 3];
-        edges[edge_key(a, b)].push_back({n, c[(k + 2) % 3], a < b});
-      }
+    std::vector<std::uint8_t> empty;
+    for (const Triangle& t : triangles_) {
+      for (const Index tet : t.beside) empty.push_back(tet == kNobody ? 1 : 0);
     }
-    UnionFind shells(2 * triangles_.size());
-    for (auto& [key, around] : edges) {
-      const auto low = static_cast<Index>(key >> 32), high = static_cast<Index>(key);
-      sort_around(low, high, around);
-      for (std::size_t n = 0; n < around.size(); ++n) {
-        const AtEdge &here = around[n], &next = around[n + 1 < around.size() ? n + 1 : 0];
-        // A triangle that runs along the edge looks to where one turns to the left around it.
-        const bool behind = !here.runs_along, next_behind = next.runs_along;
-        const bool empty = is_empty(here.triangle, behind);
-        if (empty != is_empty(next.triangle, next_behind)) {
-          result_.parts.fail("between " + name(triangles_[here.triangle]) + " and " +
-                             name(triangles_[next.triangle]) + " there is a part of a wedge");
-        } else if (empty) {
-          shells.unite(side(here.triangle, behind), side(next.triangle, next_behind));
-        }
-      }
-    }
-    sum_up(shells);
-  }
-
-  bool is_empty(Index triangle, bool behind) const {
-    return triangles_[triangle].beside[behind ? 1 : 0] == kNobody;
-  }
-
-  // Turning to the left around the edge, from the first one on.
-  void sort_around(Index low, Index high, std::vector<AtEdge>& around) const {
-    if (around.size() < 3) return;
-    const Index first = around.front().apex;
-    const auto half = [&](Index apex) {
-      if (apex == first) return 0;
-      const int s = exact::orient3d(points_, low, high, first, apex);
-      return s > 0 ? 1 : s == 0 ? 2 : 3;
-    };
-    std::stable_sort(around.begin(), around.end(), [&](const AtEdge& a, const AtEdge& b) {
-      const int i = half(a.apex), j = half(b.apex);
-      return i != j ? i < j : exact::orient3d(points_, low, high, a.apex, b.apex) > 0;
-    });
-  }
-
-  // Sides without tetrahedra that are connected around edges.
-  struct Shell {
-    std::vector<Index> sides;
-    ExactSum volume;            // positive if what is on its side is within
-    std::vector<Index> points;  // region points of the part within
-  };
-
-  void sum_up(UnionFind& sets) {
-    for (Index n = 0; n < triangles_.size(); ++n) {
-      for (const bool behind : {false, true}) {
-        if (!is_empty(n, behind)) continue;
-        Shell& shell = shells_[sets.find(side(n, behind))];
-        shell.sides.push_back(side(n, behind));
-        add_side(side(n, behind), shell.volume);
-      }
+    shells_.emplace(points_, corners_, std::move(empty));
+    for (const auto& [here, next] : shells_->broken_wedges()) {
+      result_.parts.fail("between " + name(triangles_[here]) + " and " + name(triangles_[next]) +
+                         " there is a part of a wedge");
     }
     find_points_of_shells();
-    for (const auto& [number, shell] : shells_) {
+    for (const auto& [number, shell] : shells_->all()) {
       if (shell.volume.sign() <= 0 || !is_wanted(shell)) continue;
       result_.parts.fail("a part that is bounded by " + name(triangles_[shell.sides.front() / 2]) +
                          " has no tetrahedra");
     }
-  }
-
-  std::vector<Face> faces_of(const Shell& shell) const {
-    std::vector<Face> faces;
-    for (const Index s : shell.sides) faces.push_back(triangles_[s / 2].corners);
-    return faces;
-  }
-
-  // The smallest with a part within that surrounds something; null: none does.
-  template <class Surrounds>
-  Shell* innermost(const Surrounds& surrounds) {
-    Shell* found = nullptr;
-    for (auto& [number, shell] : shells_) {
-      const bool smaller = found == nullptr || difference(shell.volume, found->volume, 0) < 0;
-      if (shell.volume.sign() > 0 && smaller && surrounds(shell)) found = &shell;
-    }
-    return found;
   }
 
   // --- points that tell of their region
@@ -338,8 +259,9 @@ class Parts {
   void find_points_of_shells() {
     for (Index n = 0; n < input_.region_points.size(); ++n) {
       if (!region_points_.around(n).empty()) continue;
-      Shell* shell = innermost(
-          [&](const Shell& other) { return region_points_.is_within(n, faces_of(other)); });
+      Shell* shell = shells_->innermost([&](const Shell& other) {
+        return region_points_.is_within(n, shells_->faces_of(other));
+      });
       if (shell != nullptr) shell->points.push_back(n);
     }
   }
@@ -352,10 +274,7 @@ class Parts {
   void find_solids() {
     if (promise_.region_names.empty() && promise_.region_sizes.empty() && !splits_walls()) return;
     std::vector<std::vector<std::int32_t>> labels;
-    for (const Triangle& t : triangles_) {
-      corners_.push_back(t.corners);
-      labels.push_back(t.labels);
-    }
+    for (const Triangle& t : triangles_) labels.push_back(t.labels);
     solids_ = std::make_unique<Solids>(points_, corners_, labels);
   }
   std::string called(const std::optional<std::int32_t>& label) const {
@@ -385,37 +304,7 @@ class Parts {
     for (const Tet& tet : complex_.tetrahedra) volume += volume6(points_, tet);
     const double rounding = kEqualVolumes * volume.value(0);
     if (!(difference(shell.volume, volume, 0) > rounding)) return false;
-    return difference(without_cavities(shell), volume, 0) > rounding;
-  }
-
-  // Does a shell surround what is on this side of a triangle?
-  bool surrounds(const Shell& shell, Index what) const {
-    Index own = kNone;
-    for (Index n = 0; n < shell.sides.size(); ++n) {
-      if (shell.sides[n] / 2 == what / 2) own = n;
-    }
-    return RayTarget(points_, faces_of(shell))
-        .surrounds(triangles_[what / 2].corners, what % 2 != 0, own);
-  }
-
-  // The volume of the part within a shell: shells that it surrounds, and no smaller one does, are
-  // those of cavities.
-  ExactSum without_cavities(const Shell& outer) {
-    ExactSum sum = outer.volume;
-    for (const auto& [number, cavity] : shells_) {
-      if (cavity.volume.sign() >= 0) continue;
-      const Index what = cavity.sides.front();
-      if (innermost([&](const Shell& other) { return surrounds(other, what); }) != &outer) continue;
-      for (const Index s : cavity.sides) add_side(s, sum);
-    }
-    return sum;
-  }
-
-  // Seen from what is on its side, a triangle is turned the other way in front.
-  void add_side(Index s, ExactSum& sum) const {
-    exact::Volume6 volume6;
-    const ExactNumber& volume = volume6.from_origin(points_, triangles_[s / 2].corners);
-    s % 2 != 0 ? sum += volume : sum -= volume;
+    return difference(shells_->without_cavities(shell), volume, 0) > rounding;
   }
 
   // A tetrahedron of each part.
@@ -633,13 +522,13 @@ class Parts {
   std::unique_ptr<Solids> solids_;
   std::map<Face, Index> by_corners_;
   UnionFind part_;
-  std::map<Index, Shell> shells_;
+  std::optional<Shells> shells_;
   RegionPoints region_points_;
   std::map<Index, std::vector<Index>> points_of_;  // of parts
   bool torn_ = false;                              // the mesh has several vertices at one place
   std::vector<Face> outer_faces_;
   std::optional<RayTarget> outer_;
-  std::vector<Index> missing_;  // triangles that are no faces and should be
+  std::vector<Index> missing_;  // triangles that should be faces and are not
   PartsResult result_;
 };
 
