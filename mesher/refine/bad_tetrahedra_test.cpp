@@ -171,15 +171,14 @@ TEST(BadTetrahedra, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::lose_fresh, "fresh tetrahedron"},
       {&Breaker::repeat_fresh, "judged twice"},
   };
-  for (const auto& [damage, reason] : cases) {
+  expect_complaints(cases, [&](auto damage) {
     Cube cube;
     cube.bad.add(cube.finite[0], 7);
     cube.bad.add_fresh(std::array{cube.finite[1], cube.finite[2]});
-    ASSERT_EQ(complaint_of(cube.bad), "nothing");
+    EXPECT_EQ(complaint_of(cube.bad), "nothing");
     (Breaker{cube.bad}.*damage)();
-    const std::string said = complaint_of(cube.bad);
-    EXPECT_NE(said.find(reason), std::string::npos) << said << ", not " << reason;
-  }
+    return complaint_of(cube.bad);
+  });
 }
 
 }  // namespace

@@ -197,14 +197,13 @@ TEST(FacetTriangulations, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::kill, "disagree about their common edge"},
       {&Breaker::kill_uncounted, "are not counted"},
   };
-  for (const auto& [damage, reason] : cases) {
+  expect_complaints(cases, [&](auto damage) {
     Parts parts;
     parts.insert_some();
-    ASSERT_EQ(complaint_of(parts.planar, parts.control), "nothing");
+    EXPECT_EQ(complaint_of(parts.planar, parts.control), "nothing");
     (Breaker{parts, parts.planar}.*damage)();
-    const std::string said = complaint_of(parts.planar, parts.control);
-    EXPECT_NE(said.find(reason), std::string::npos) << said << ", not " << reason;
-  }
+    return complaint_of(parts.planar, parts.control);
+  });
 }
 
 }  // namespace

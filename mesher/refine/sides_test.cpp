@@ -144,17 +144,17 @@ TEST(Sides, StraddlingIsNotInherited) {
 }
 
 TEST(Sides, ValidateReportsEveryBrokenInvariant) {
-  const auto complaint = [](void (SidesBreaker::*damage)(TetId) const, std::vector<Box> removed) {
+  const auto said_after = [](void (SidesBreaker::*damage)(TetId) const, std::vector<Box> removed) {
     Sided box(std::move(removed));
     for (const TetId t : box.finite()) box.sides->of(t);
     EXPECT_EQ(complaint_of(*box.sides), "nothing");
     (SidesBreaker{*box.sides}.*damage)(box.finite().front());
     return complaint_of(*box.sides);
   };
-  EXPECT_NE(complaint(&SidesBreaker::turn, {}).find("disagree"), std::string::npos);
-  EXPECT_NE(complaint(&SidesBreaker::leave_asked, {}).find("asked"), std::string::npos);
+  EXPECT_NE(said_after(&SidesBreaker::turn, {}).find("disagree"), std::string::npos);
+  EXPECT_NE(said_after(&SidesBreaker::leave_asked, {}).find("asked"), std::string::npos);
   // The surface between two may belong to the removed part.
-  EXPECT_EQ(complaint(&SidesBreaker::turn, {kEverything}), "nothing");
+  EXPECT_EQ(said_after(&SidesBreaker::turn, {kEverything}), "nothing");
 }
 
 // The sides at the end of a refinement are those of the exact test against the whole surface.

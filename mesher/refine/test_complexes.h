@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/check.h"
 #include "mesher/base/control.h"
+#include "mesher/base/test_complaints.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/refine/refine.h"
 
@@ -90,16 +90,5 @@ struct Complex {
     return all;
   }
 };
-
-// The message of a part's validate() about a broken invariant; "nothing" if it sees none.
-template <class Part, class... Arguments>
-std::string complaint_of(Part& part, Arguments&... arguments) {
-  try {
-    part.validate(arguments...);
-  } catch (const InternalError& error) {
-    return error.what();
-  }
-  return "nothing";
-}
 
 }  // namespace delmesher::refine
