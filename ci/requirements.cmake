@@ -74,7 +74,7 @@ if(TETPROOF_HARNESS)
   need(LibZip "the oracles" LIBZIP_INCLUDE_DIR LIBZIP_LIBRARY)
   need(ZLIB "the oracles" ZLIB_FOUND)
 else()
-  optional(ZLIB "compressed files (gzip, .3mf, .vtu with zlib) are refused" ZLIB_FOUND)
+  optional(ZLIB "compressed files (gzip, .3mf, .vtu with zlib) are rejected" ZLIB_FOUND)
 endif()
 
 if(TETPROOF_HARNESS)

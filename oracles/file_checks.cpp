@@ -211,7 +211,7 @@ void SolidStep::check_names() {
   names.promised = exact_ != nullptr && input_.names_read;
   if (!names.promised && names.violations > 0) {
     names.notes.push_back(input_.names_read
-                              ? names.findings[0] + ", which is no fault without a record"
+                              ? names.findings[0] + ", which is not a fault without a record"
                               : "the names were not compared: those of the input are not read");
     names.violations = 0;
     names.findings.clear();

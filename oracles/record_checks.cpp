@@ -204,7 +204,7 @@ OracleReport Final::check_facet_ids(const TetComplex& complex, const ConformityR
     ++report.checked;
     const auto found = std::lower_bound(tiles.begin(), tiles.end(), Tile{face, Index{0}, false});
     if (found == tiles.end() || found->face != face) {
-      report.fail(complex.face_name(face) + " is no boundary face of the solid");
+      report.fail(complex.face_name(face) + " is not a boundary face of the solid");
     } else if (seen[found - tiles.begin()]++ != 0) {
       report.fail(complex.face_name(face) + " is listed twice");
     } else if (found->even != even) {

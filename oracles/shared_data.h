@@ -85,8 +85,8 @@ class SharedData {
     make_final();
     return final_;
   }
-  // The chain of mesh edges on each edge of its surface; none if it is no complex. They stay when
-  // the mesh is forgotten.
+  // The chain of mesh edges on each edge of its surface; none if it is not a complex. They stay
+  // when the mesh is forgotten.
   const Chains& final_chains() {
     const std::lock_guard<std::mutex> lock(final_mutex_);
     if (!final_chains_known_) make_final();

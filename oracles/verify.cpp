@@ -23,7 +23,7 @@ namespace {
 
 using delmesher::ExactRecord;
 
-// What alone is asked about although more was promised.
+// The part that is checked although more was promised.
 std::string scope_of(const VerifyOptions& options, bool recorded) {
   if (options.promised.task != Task::mesh) return {};
   if (!recorded) return options.promised.of_record.empty() ? "" : "the mesh as written";

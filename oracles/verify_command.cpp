@@ -72,7 +72,7 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "what the mesher was asked for: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS', "
                  "'improve OPTIONS' (mesh)");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
-                 "deviation that is no failure, as a fraction of the diagonal (0)");
+                 "deviation that is not a failure, as a fraction of the diagonal (0)");
   app.add_option("--envelope", arguments.envelope,
                  "the mesh has a surface of its own, at most this fraction of the diagonal (from "
                  "1e-7 to 1) "
@@ -277,25 +277,27 @@ int run_verify(int argc, char** argv) {
     std::fprintf(stderr, "tetproof: --promised: %s\n", why.c_str());
     return kUsage;
   }
-  // Nothing is more than no number.
+  // Comparisons with NaN are false.
   if (const double declared = arguments.options.declared_deviation;
       !(declared >= 0 && std::isfinite(declared))) {
-    std::fprintf(stderr, "tetproof: --declared-deviation: %g is no deviation\n", declared);
+    std::fprintf(stderr, "tetproof: --declared-deviation: must be a finite number >= 0, got %g\n",
+                 declared);
     return kUsage;
   }
   const Task task = arguments.options.promised.task;
   const bool surface = task == Task::mesh || task == Task::cdt;
   const double envelope = arguments.envelope;
   if (envelope != 0 && !(envelope >= kLeastEnvelope && envelope <= 1)) {
-    std::fputs("tetproof: --envelope: a fraction from 1e-7 to 1 is expected\n", stderr);
+    std::fputs("tetproof: --envelope: must be a fraction from 1e-7 to 1\n", stderr);
     return kUsage;
   }
   if (arguments.envelope > 0 && (!surface || !arguments.exact.empty())) {
-    std::fputs("tetproof: --envelope: of a mesh of a surface, and of a file alone\n", stderr);
+    std::fputs("tetproof: --envelope works only for surface meshes without --exact\n", stderr);
     return kUsage;
   }
   if (arguments.options.promised.tolerance != 0 && (envelope > 0 || !arguments.exact.empty())) {
-    std::fputs("tetproof: --promised: a tolerance is an envelope, of a file alone\n", stderr);
+    std::fputs("tetproof: --promised: a tolerance works only without --envelope and --exact\n",
+               stderr);
     return kUsage;
   }
   if (task == Task::improve && (arguments.stage || !arguments.exact.empty())) {
@@ -303,8 +305,7 @@ int run_verify(int argc, char** argv) {
     return kUsage;
   }
   if (arguments.stage && task == Task::plane) {
-    std::fputs("tetproof: --stage: in the plane --promised 'plane --approximate' says it\n",
-               stderr);
+    std::fputs("tetproof: --stage: use --promised 'plane --approximate' in the plane\n", stderr);
     return kUsage;
   }
   return_large_blocks();

@@ -14,7 +14,7 @@ import meshio
 import numpy
 
 DELMESHER, SCRATCH = sys.argv[1], sys.argv[2]
-# A box whose sides have three names; a third is no decimal that is short.
+# A box whose sides have three names; a third is not a short decimal.
 HEIGHT = 1 / 3
 BOX = """v 0 0 0
 v 1 0 0

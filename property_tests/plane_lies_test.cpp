@@ -193,7 +193,7 @@ TEST(PlaneLies, AboutAnEdgeOverAVertex) {
       says(verdict_on(told), "refined-segments", "has an edge that passes through a vertex"));
 }
 
-// Segments cut a rectangle into two halves; what is inside is no matter of parity.
+// Segments cut a rectangle into two halves; parity does not decide what is inside.
 TEST(PlaneLies, NameAFaceThatIsMissing) {
   PlanarGraph graph;
   graph.vertices = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};

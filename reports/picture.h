@@ -26,7 +26,7 @@ struct Place {
 Place place_of(const std::string& sentence);
 
 // The first sentence that names a place, of the oracles of a verdict (`tetproof verify --json`)
-// that have failed; empty if there is none. Nothing if it is no such verdict.
+// that have failed; empty if there is none. Nothing if it is not such a verdict.
 std::optional<std::string> sentence_with_place(const std::string& verdict_json);
 
 // The picture that a campaign has put into a verdict; empty if there is none.

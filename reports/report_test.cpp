@@ -198,7 +198,7 @@ TEST(Compare, SwappingTheSidesInverts) {
   EXPECT_EQ(p.mcnemar, q.mcnemar);
 }
 
-// A hull beside an interior, neither file telling its inside, is no comparison of sizes.
+// A hull beside an interior, neither file telling its inside, is not a comparison of sizes.
 TEST(Compare, WhatDoesNotCoverTheSameIsMarked) {
   std::vector<RunRow> rows = {row_of({"a", "cdt", kOk, 100, 5, 1, 0, 0}),
                               row_of({"a", "tetgen", kOk, 50, 5, 1, 0, 0})};

@@ -248,7 +248,7 @@ def licences_used(path, text):
     return used
 
 
-# Names of Debian's libraries, which are no paths.
+# Names of Debian's libraries, which are not paths.
 PACKAGE = re.compile(r"(?<![\w./+-])(?:lib[\w.+-]+|[\w.+-]+-dev)(?![\w/])")
 
 

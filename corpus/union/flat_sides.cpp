@@ -67,7 +67,7 @@ void FlatSide::add(const Segment& segment) {
   segments_.push_back(segment);
 }
 
-// From the faces on the left of the border over all edges that are no border.
+// From the faces on the left of the border over all edges not on the border.
 void FlatSide::append_to(std::vector<Piece>& pieces) {
   for (const auto& [from, to] : segments_) {
     triangulation_.insert_constraint(vertex(from), vertex(to));

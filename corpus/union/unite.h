@@ -60,7 +60,7 @@ struct UnionOptions {
 enum class UnionCode : std::uint8_t {
   done,
   touching,     // the union is there, but not manifold: parts of it touch
-  unsound,      // a corner that is no point, or triangles that do not close up
+  unsound,      // a corner that is not a point, or triangles that do not close up
   empty,        // nothing is inside
   imprecise,    // new points are too close to each other for doubles
   inseparable,  // parts touch, and could not be moved apart
@@ -73,7 +73,7 @@ struct UnionCounts {
   std::uint64_t bodies_before = 0, bodies_after = 0;  // that are connected over edges
   std::uint64_t pairs = 0, coplanar_pairs = 0;        // of triangles that meet
   std::uint64_t cut = 0, new_points = 0;              // triangles, points of the arrangement
-  std::uint64_t dropped = 0;                          // pieces that are no part of the result
+  std::uint64_t dropped = 0;                          // pieces that are not in the result
   std::uint64_t flat_vertices = 0;  // given and new ones that the shape does not need
   std::uint64_t needles = 0;        // triangles as thin as roundings, removed
   std::uint64_t inside_out = 0;     // patches with a negative winding number behind

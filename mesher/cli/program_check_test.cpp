@@ -172,7 +172,7 @@ TEST_F(Program, FacesGetLabelsByAngle) {
       EXPECT_NE(text(file).find("face_6"), std::string::npos) << file;
     }
   }
-  // An angle labels what has no labels; what is no surface is refused for that.
+  // An angle labels a surface without labels; what is not a surface is rejected as that.
   write("in.ply",
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
         "property double z\nelement face 4\nproperty list uchar int vertex_indices\n"
@@ -293,7 +293,7 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
   EXPECT_NE(hints_of(kCubeTriangles + "3 8 9 11\n3 8 11 10\n", long_box)
                 .find("  hint: a sheet of 2 triangles meets a closed body: an inner wall, or "),
             std::string::npos);
-  // A body with a hole is no sheet, whatever sticks in it: here a sphere-like box of 1452
+  // A body with a hole is not a sheet, whatever sticks in it: here a sphere-like box of 1452
   // triangles.
   std::string many, faces;
   std::map<std::array<int, 3>, int> numbers_of;

@@ -56,7 +56,7 @@ int Runner::read() {
   return code == kDone ? read_beside(names_, surface_.labels) : code;
 }
 
-// What is no surface keeps its labels: the job says why it is none.
+// What is not a surface keeps its labels: the job says why it is not one.
 int Runner::label_by_angle() {
   if (command_.label_angle == 0) return kDone;
   const Status status = delmesher::label_by_angle(surface_, command_.label_angle);

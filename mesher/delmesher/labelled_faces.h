@@ -24,9 +24,9 @@ namespace delmesher {
 //  (4) Where the surface is closed and manifold, the edges between labels form closed loops: no
 //      vertex has just one of them. A sharp edge that ends in a face is not between labels.
 //
-// A surface that has several labels is refused with StatusCode::invalid_options, as is an angle out
-// of range: what was labelled by hand says more than an angle. Indices out of range and infinite
-// coordinates are StatusCode::invalid_surface. A refused surface is left as it was.
+// A surface that has several labels is rejected with StatusCode::invalid_options, as is an angle
+// out of range: what was labelled by hand says more than an angle. Indices out of range and
+// infinite coordinates are StatusCode::invalid_surface. A rejected surface is left as it was.
 Status label_by_angle(Surface& surface, double degrees);
 
 // The triangles of one label.

@@ -68,7 +68,7 @@ struct SurfaceReport {
   std::uint64_t facets = 0, planar_facets = 0, acute_vertices = 0, acute_edges = 0;
   double planar_bound = 0;                 // in input units
   double smallest_local_feature_size = 0;  // distance of the closest non-incident elements
-  // If CheckOptions::want_regions, and the surface is no single solid, but a complex.
+  // If CheckOptions::want_regions, and the surface is not one solid, but a complex.
   ComplexReport complex;
 };
 

@@ -24,7 +24,7 @@ std::vector<Patch> patches_of(const std::vector<std::array<std::uint32_t, 3>>& t
 // Facets of TetGen's files have no orientation. Turns the triangles of each patch outwards, or of
 // one inside an odd number of others inwards. Answers with warnings where TetGen would mesh another
 // part than that inside an odd number of patches: it fills what has no hole point. Where more than
-// two triangles meet at an edge, or fewer, nothing is said.
+// two triangles meet at an edge, or fewer, the orientation is open.
 std::vector<std::string> orient_facets(Surface& surface,
                                        const std::vector<std::array<double, 3>>& holes,
                                        Polling& polling);

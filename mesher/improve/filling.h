@@ -54,7 +54,7 @@ class Filling {
     double squared_radius = 0;  // 0 where the tetrahedron is flat
   };
 
-  // All that counts is asked of the whole skin.
+  // The whole skin is looked at for all that counts.
   struct Judge {
     using Value = bool;
     static bool in_plane() { return true; }

@@ -19,7 +19,7 @@ struct GivenMesh {
 };
 
 struct CheckedMesh {
-  // Why it is no conforming mesh, with numbers counted from 0; empty if it is one. It is one if
+  // Why it is not a conforming mesh, with numbers counted from 0; empty if it is one. It is one if
   //  - all coordinates are finite, and each tetrahedron and triangle has different, existing
   //  vertices;
   //  - tetrahedra are of one orientation, by exact signs, but for flat ones;

@@ -9,7 +9,8 @@ namespace {
 
 double number_of(std::string_view token, Position here) {
   double value = 0;
-  if (parse_double(token, value) != NumberStatus::ok) fail(here, "no number: " + in_quotes(token));
+  if (parse_double(token, value) != NumberStatus::ok)
+    fail(here, "not a number: " + in_quotes(token));
   return value;
 }
 

@@ -61,9 +61,9 @@ TEST_F(SizeFieldFiles, AreViewsOfScalars) {
 TEST_F(SizeFieldFiles, ThatAreWrongAreRefusedByLine) {
   EXPECT_EQ(error_of("1 2 3 4\n1 2 3\n"), "2: fewer numbers than expected: X Y Z SIZE");
   EXPECT_EQ(error_of("1 2 3 4 5\n"), "1: more numbers than expected: X Y Z SIZE");
-  EXPECT_EQ(error_of("x y z h\nx y z h\n"), "2: no number: 'x'");
+  EXPECT_EQ(error_of("x y z h\nx y z h\n"), "2: not a number: 'x'");
   EXPECT_EQ(error_of("1 2 3 0\n"), "1: sizes have to be above 0");
-  EXPECT_EQ(error_of("1 2 3 inf\n"), "1: no number: 'inf'");
+  EXPECT_EQ(error_of("1 2 3 inf\n"), "1: not a number: 'inf'");
   EXPECT_EQ(error_of("# nothing\n"), " no sizes in it");
   EXPECT_EQ(error_of("View \"v\" {\nVP(0,0,0){1,2,3};};"),
             "2: only views of scalars have sizes, no 'VP'");

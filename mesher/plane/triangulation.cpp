@@ -491,7 +491,7 @@ bool Triangulation::is_ear(std::size_t k) {
   });
 }
 
-// The triangle must be no other one's neighbour.
+// No other triangle may have it as a neighbour.
 void Triangulation::drop(TriangleId t) {
   const auto last = static_cast<TriangleId>(triangles_.size() - 1);
   if (t != last) {

@@ -15,7 +15,7 @@ cdt::CdtResult tetrahedrize_as_given(const ConformingMesh& mesh, SurfaceAsGiven 
   for (VertexId v = 0; v < session.input_vertices(); ++v) {
     farthest = std::max(farthest, distance(returned.points.nearest(v), session.points.nearest(v)));
   }
-  // Twice, and more than doubles err.
+  // Factor 2 covers rounding errors with room to spare.
   const double reach = 2 * farthest + 0x1p-40 * session.diagonal;
   Predicates predicates(returned.points);
   cdt::CdtInput input = enrich::input_as_given(mesh, returned.topology, reach, returned.points,

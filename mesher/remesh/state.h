@@ -79,7 +79,7 @@ class State {
 
   const RemeshGoals goals_;
   const LocalFrame frame_;
-  // Cosines: of the bend of what is no line, and of the least bend of what is to stay one.
+  // Cosines: of the bend of what is not a line, and of the least bend of what is to stay one.
   const double steepest_, flattest_;
   PointStore points_;
   Predicates predicates_{points_};

@@ -48,7 +48,7 @@ class TriangleMesh {
 
   // Those at an edge.
   std::vector<std::uint32_t> triangles_at(VertexId a, VertexId b) const;
-  // kNone if the edge is no line.
+  // kNone if the edge is not a line.
   std::uint32_t line_at(VertexId a, VertexId b) const;
   // The vertices that share an edge with v, sorted.
   std::vector<VertexId> neighbours(VertexId v) const;

@@ -185,7 +185,7 @@ Result moved_and_back(const Surface& surface, const Options& options, Task& task
   return result;
 }
 
-// The copies, of model and options, are no part of a task: their memory is guarded here.
+// The copies, of model and options, are not part of a task: their memory is guarded here.
 template <class Run>
 auto guarded_run(const Run& run) {
   try {

@@ -179,7 +179,7 @@ TEST(LabelByAngle, RefusesAndLeavesAsItWas) {
   EXPECT_TRUE(s.labels.empty());
 }
 
-// What is no surface: open edges and edges of three triangles part faces.
+// What is not a surface: open edges and edges of three triangles part faces.
 TEST(LabelByAngle, EdgesOfOneOrThreeTrianglesPartFaces) {
   Surface s;
   s.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0.5, 0, 1}};

@@ -112,7 +112,7 @@ OracleReport check_edge_nodes(const MeshFile& mesh, double declared, double larg
       const double distance = std::fabs(at[k] - middle);
       off = distance <= off || std::isnan(off) ? off : distance;
     }
-    if (off <= allowed) {  // not if it is no number
+    if (off <= allowed) {  // false for NaN
       farthest = std::max(farthest, off);
       continue;
     }

@@ -1,7 +1,7 @@
 // Does a mesh have the parts of space that a complex of triangles bounds, each as a region of its
 // own, with the triangles as faces? By the doubles of the file and the signs of exact numbers.
 //
-// Parts are tetrahedra that are connected across faces that are no triangles of the input. If
+// Parts are tetrahedra that are connected across faces that are not triangles of the input. If
 //  - the tetrahedra are positive, and the faces that two of them share have them on different sides
 //    (other oracles),
 //  - every face of one tetrahedron alone, an outer face, is a triangle of the input, and the
@@ -52,8 +52,8 @@ struct PartsResult {
 // `points` of the complex: the vertices of the input, then those of the file from
 // complex.first_vertex on. Triangles that are repeated in the input count once. Those that are not
 // faces of the mesh are violations, but for those that bound no part. `near`: if all of them have
-// a vertex of the mesh within this distance (input units) that is no corner, they may be split, and
-// whether faces tile them is not decided; 0: that is not asked.
+// a vertex of the mesh within this distance (input units) that is not a corner, they may be split,
+// and whether faces tile them is not decided; 0: that is not asked.
 PartsResult check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
                         const Neighbours& neighbours, const Promise& promise, double near);
 

@@ -35,7 +35,7 @@ struct Neighbours {
 // is half that of the boundary, as for every manifold of odd dimension, so solids that hang
 // together at a vertex or an edge only fail. Fills `neighbours` as far as the complex allows.
 // `is_part`: the complex is the inside of a refined mesh, without the tetrahedra that lie across
-// the chamfered or dropped part of the surface. It need be no manifold and may be empty; its
+// the chamfered or dropped part of the surface. It may be empty, and need not be a manifold; its
 // characteristic is reported only.
 OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bool is_part = false);
 

@@ -337,7 +337,7 @@ class ChamferChecker {
   }
 
   // Coordinates relative to the first of these ends, rounded once, in a unit of 2^exponent in which
-  // squares of lengths are no subnormal numbers.
+  // squares of lengths are normal numbers.
   std::array<Vector, 4> relative(const std::array<Index, 4>& ends, int& exponent) const {
     std::array<Vector, 4> at;
     double largest = 0;

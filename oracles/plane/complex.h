@@ -99,7 +99,7 @@ std::vector<std::vector<SegmentPart>> parts_of(const PlaneComplex& mesh, const P
 //   on a segment or on the rectangle;
 // - orientation: every triangle is counter-clockwise;
 // - delaunay: every edge that is not listed is locally Delaunay.
-// False if it is no complex at all (is_hopeless), so that nothing else is worth asking.
+// False if it is not a complex at all (is_hopeless); then nothing else is checked.
 bool check_plane_complex(const PlaneComplex& mesh, const PlaneGraph& input,
                          const std::string& prefix, VerifyReport& report);
 

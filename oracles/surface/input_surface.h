@@ -65,7 +65,7 @@ class InputSurface {
   // `thin` (input units) along one of them contains. Each facet made so lies in a slab, across the
   // sum of its area vectors. Returns the width of the widest, in input units, rounded up; infinite
   // if such a sum is zero, or if a triangle faces against it and is not a needle thinner than
-  // `thin`: walls around a hollow, or two sides of a plate, are no facet.
+  // `thin`: walls around a hollow, or two sides of a plate, are not a facet.
   double unite_facets(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
   // The same for given facets, by a number for each triangle: a facet is a connected set of

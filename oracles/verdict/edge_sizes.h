@@ -47,7 +47,7 @@ inline constexpr char kTooLong[] = "edges too long", kLargestEdge[] = "largest o
 
 // Names the promise in `unproven` if the report counts edges that are too long, as some are where
 // something that the refinement left out came back. Without a record that is undecided, with one it
-// is no violation: there the refined mesh, and what followed, are decided.
+// is not a violation: there the refined mesh, and what followed, are decided.
 void excuse_long_edges(const char* option, bool recorded, OracleReport& lengths,
                        std::vector<std::string>& unproven);
 

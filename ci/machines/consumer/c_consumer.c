@@ -36,17 +36,17 @@ int main(void) {
   if (memcmp(by_angle, labels, sizeof labels) != 0) return fail("other labels by angle");
   cube.labels = by_angle;
   delmesher_options* options = delmesher_options_new();
-  if (delmesher_options_set(options, "max_edge", 0.5) != 0) return fail("max_edge is no option");
+  if (delmesher_options_set(options, "max_edge", 0.5) != 0) return fail("max_edge is not an option");
   const double sources[] = {0, 0, 0, 0.25, 1, 1, 1, 0.25};
   if (delmesher_options_size_field(options, sources, 2) != 0) return fail("no size field");
   if (delmesher_options_size_field(options, NULL, 1) != -1) return fail("a size field of nothing");
   if (delmesher_options_size_field(NULL, sources, 2) != -1) return fail("a size field of nobody");
-  if (delmesher_options_set(options, "threads", 2) != 0) return fail("threads is no option");
+  if (delmesher_options_set(options, "threads", 2) != 0) return fail("threads is not an option");
   if (delmesher_options_set(options, "max_egde", 1) != -1) return fail("max_egde is an option");
   if (delmesher_options_set(options, "threads", 1.5) != -1) return fail("one and a half threads");
   if (delmesher_options_set(options, "improve", 2) != -1) return fail("improved twice");
   if (delmesher_options_set(options, "order", 1) != -1) return fail("order is an option");
-  if (delmesher_options_set(options, "paper_order", 0) != 0) return fail("paper_order is no option");
+  if (delmesher_options_set(options, "paper_order", 0) != 0) return fail("paper_order is not an option");
 
   delmesher_result* result = delmesher_tetrahedralize(&cube, options);
   if (delmesher_result_status(result) != DELMESHER_OK) return fail(delmesher_result_message(result));
@@ -81,7 +81,7 @@ int main(void) {
   if (strstr(delmesher_result_message(result), "max_edge") == NULL) return fail("another option than max_edge");
   delmesher_result_free(result);
   delmesher_options* hull = delmesher_options_new();
-  if (delmesher_options_set(hull, "threads", 2) != 0) return fail("threads is no option");
+  if (delmesher_options_set(hull, "threads", 2) != 0) return fail("threads is not an option");
   result = delmesher_constrained_delaunay(&cube, hull);
   if (delmesher_result_status(result) != DELMESHER_OK) return fail(delmesher_result_message(result));
   delmesher_result_free(result);
