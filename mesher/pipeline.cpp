@@ -87,12 +87,24 @@ Status sizes_are_doubles(const Surface& surface, const Session& s) {
   return {};
 }
 
+// What is to be meshed, checked once however many runs there are.
+struct Given {
+  const Surface& surface;
+  std::optional<ValidityResult> validity{};
+
+  const ValidityResult& checked(Rules rules, Control& control) {
+    if (!validity) validity = check_validity(surface, true, control, kMostPlaces, rules);
+    return *validity;
+  }
+};
+
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
 // near-coplanar triangles in exactly one plane. A complex as it is given.
-Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
+Status prepare(Given& given, Planes planes, Session& s, Recorder& recorder) {
   s.control.enter(Phase::check);
+  const Surface& surface = given.surface;
   const Rules rules = is_complex(s) ? Rules::complex : Rules::solid;
-  const ValidityResult validity = check_validity(surface, true, s.control, kMostPlaces, rules);
+  const ValidityResult& validity = given.checked(rules, s.control);
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
@@ -106,24 +118,13 @@ Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& reco
   return s.surface.topology().plane_count == 1 ? bounds_nothing() : Status{};
 }
 
-// Sections 4 and 7, in turn until neither leaves anything to the other.
-chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferOptions& options,
-                                             Session& s) {
+chamfer::FilteredSurface filtered_surface(double tau, const chamfer::ChamferOptions& options,
+                                          Session& s) {
   chamfer::FilterOptions filter{.tolerance = tau * s.diagonal,
                                 .all_pairs = s.options.as_paper.filter_pairs,
                                 .both_sides = s.options.as_paper.filter_chamfered};
   if (filter.both_sides) filter.chamfered_fraction = 1;
-  chamfer::FilteredSurface surface(s.surface.topology(), s.points, s.predicates, options, filter,
-                                   s.control);
-  s.control.enter(Phase::filter);
-  surface.drop_close();
-  do {
-    s.control.enter(Phase::chamfer);
-    surface.chamfer();
-    s.control.enter(Phase::filter);
-  } while (surface.drop_small());
-  s.control.enter(Phase::chamfer);
-  return surface.result();
+  return {s.surface.topology(), s.points, s.predicates, options, filter, s.control};
 }
 
 refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double tau,
@@ -157,13 +158,26 @@ struct Refinement {
   chamfer::ChamferedSurface chamfered{};
   refine::RefineResult refined{};
 
-  void filter() {
+  // Sections 4 and 7, in turn until neither leaves anything to the other; false if the first step
+  // shows that the mesh will not keep to the budget.
+  bool filter(bool within_budget) {
     s.points.truncate(s.input_vertices());
-    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+    chamfer::FilteredSurface surface = filtered_surface(budget.tau(), fallback.chamfering(), s);
+    s.control.enter(Phase::filter);
+    surface.drop_close();
+    if (within_budget && budget.is_exceeded_at_least(surface, s, recorder)) return false;
+    do {
+      s.control.enter(Phase::chamfer);
+      surface.chamfer();
+      s.control.enter(Phase::filter);
+    } while (surface.drop_small());
+    s.control.enter(Phase::chamfer);
+    chamfered = surface.result();
+    return true;
   }
   void refine() { refined = refine_mesh(chamfered, budget.tau(), fallback, s); }
   void refine_anew() {
-    filter();
+    filter(false);
     refine();
   }
 };
@@ -173,8 +187,7 @@ struct Filtering {
   Refinement& r;
 
   void attempt() {
-    r.filter();
-    r.budget.predict(r.chamfered, r.s, r.recorder);
+    if (r.filter(true)) r.budget.predict(r.chamfered, r.s, r.recorder);
   }
   bool good_enough() const { return r.budget.is_kept(); }
 };
@@ -329,8 +342,8 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
   recorder.written(std::move(rounded));
 }
 
-Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = prepare(surface, planes, s, recorder); !status.ok()) return status;
+Status mesh_with(Planes planes, Given& given, Session& s, Recorder& recorder) {
+  if (Status status = prepare(given, planes, s, recorder); !status.ok()) return status;
 
   Refinement refinement{s, recorder};
   Filtering filtering{refinement};
@@ -460,10 +473,10 @@ constexpr Step<Keeping> kKeeping[] = {
 };
 
 // `merged`: a complex, whose regions are listed in `regions`.
-Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder,
+Status mesh_kept_surface(Given& given, Session& s, Recorder& recorder,
                          const MergedSurface* merged = nullptr,
                          std::vector<MeshRegion>* regions = nullptr) {
-  if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
+  if (Status status = prepare(given, Planes::none, s, recorder); !status.ok()) return status;
   Keeping keeping{s, recorder};
   keeping.enter_edges();
   climb(keeping, kKeeping, recorder.ladder());
@@ -486,8 +499,8 @@ Status mesh_kept_surface(const Surface& surface, Session& s, Recorder& recorder,
 }
 
 // Without refinement: the surface alone.
-Status surface_alone(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
+Status surface_alone(Given given, Session& s, Recorder& recorder) {
+  if (Status status = prepare(given, Planes::none, s, recorder); !status.ok()) return status;
   cdt::CdtResult cdt = plain_cdt(enrich::plain_input(s.surface.topology()), s);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
@@ -513,19 +526,24 @@ Result run(const Pipeline& pipeline, const Options& options, const LocalFrame& f
   return result;
 }
 
+Result run_keeping(Given& given, const Options& options, const LocalFrame& frame) {
+  return run([&](Session& s, Recorder& recorder) { return mesh_kept_surface(given, s, recorder); },
+             options, frame);
+}
+
 Result run_kept(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  return run(
-      [&](Session& s, Recorder& recorder) { return mesh_kept_surface(surface, s, recorder); },
-      options, frame);
+  Given given{surface};
+  return run_keeping(given, options, frame);
 }
 
 // Every part of space that the surface bounds; repeated triangles count once.
 Result run_complex(const Surface& surface, const Options& options, const LocalFrame& frame) {
   const MergedSurface merged = merge_repeated(surface);
+  Given given{merged.surface};
   std::vector<MeshRegion> regions;
   Result result = run(
       [&](Session& s, Recorder& recorder) {
-        return mesh_kept_surface(merged.surface, s, recorder, &merged, &regions);
+        return mesh_kept_surface(given, s, recorder, &merged, &regions);
       },
       options, frame);
   if (!result.status.ok()) return result;
@@ -536,7 +554,7 @@ Result run_complex(const Surface& surface, const Options& options, const LocalFr
 
 // Whole runs; the best counts.
 struct Runs {
-  const Surface& surface;
+  Given given;
   const LocalFrame& frame;
   PlanarRuns planes;
   Result best;
@@ -544,14 +562,14 @@ struct Runs {
   bool good_enough() const { return !is_too_heavy() && PlanarRuns::good_enough(best); }
   bool is_too_heavy() const { return planes.is_too_heavy(best); }
 
-  Result run_with(Planes how, const Options& options) const {
-    return run([&](Session& s, Recorder& recorder) { return mesh_with(how, surface, s, recorder); },
+  Result run_with(Planes how, const Options& options) {
+    return run([&](Session& s, Recorder& recorder) { return mesh_with(how, given, s, recorder); },
                options, frame);
   }
   void run_again(Planes how) { PlanarRuns::keep_better(run_with(how, planes.options()), best); }
   void keep_surface() {
     const Statistics split = std::move(best.statistics);
-    best = run_kept(surface, planes.kept_options(), frame);
+    best = run_keeping(given, planes.kept_options(), frame);
     best.statistics.ladder += split.ladder;
     best.statistics.predicted_tetrahedra = split.predicted_tetrahedra;
   }
@@ -569,7 +587,7 @@ constexpr Step<Runs> kRuns[] = {
 Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
   Options options = given;
   options.surface = surface_choice(given);
-  Runs runs{surface, frame, PlanarRuns(options), {}};
+  Runs runs{{surface}, frame, PlanarRuns(options), {}};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
   RungCounts taken;
@@ -579,7 +597,7 @@ Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& 
 }
 
 Result run_plain_cdt(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  return run([&](Session& s, Recorder& recorder) { return surface_alone(surface, s, recorder); },
+  return run([&](Session& s, Recorder& recorder) { return surface_alone({surface}, s, recorder); },
              options, frame);
 }
 

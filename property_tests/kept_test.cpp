@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "mesher/delmesher.h"
 #include "oracles/base/vectors.h"
@@ -265,6 +267,47 @@ TEST(AutomaticSurface, IsKeptWhereItWouldTakeManyToSplitIt) {
   const VerifyReport report = verified(plate(), result, automatic());
   EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
   EXPECT_NE(report.find("kept"), nullptr);
+}
+
+// Stars, side by side: octahedra with a spike on each face.
+Surface stars() {
+  constexpr std::uint32_t kCopies = 12;
+  constexpr double kTip = 1.3;
+  Surface surface;
+  for (std::uint32_t copy = 0; copy < kCopies; ++copy) {
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    const double x = 4.0 * copy;
+    for (const double sign : {1.0, -1.0}) {
+      surface.vertices.insert(surface.vertices.end(),
+                              {{x + sign, 0, 0}, {x, sign, 0}, {x, 0, sign}});
+    }
+    for (std::uint32_t code = 0; code < 8; ++code) {
+      const auto tip = static_cast<std::uint32_t>(surface.vertices.size());
+      const auto along = [&](std::uint32_t k) { return (code >> k & 1U) != 0 ? -kTip : kTip; };
+      surface.vertices.push_back({x + along(0), along(1), along(2)});
+      std::array<std::uint32_t, 3> v;
+      for (std::uint32_t k = 0; k < 3; ++k) v[k] = first + k + 3 * (code >> k & 1U);
+      if (along(0) * along(1) * along(2) < 0) std::swap(v[0], v[1]);
+      for (std::size_t k = 0; k < 3; ++k) surface.triangles.push_back({v[k], v[(k + 1) % 3], tip});
+    }
+  }
+  return surface;
+}
+
+TEST(AutomaticSurface, IsKeptBeforeThereAreChamfersWhereTheyAreBoundToTakeMany) {
+  bool has_chamfered = false;
+  Options options;
+  options.progress = [&](const delmesher::Progress& progress) {
+    has_chamfered = has_chamfered || progress.phase == delmesher::Phase::chamfer;
+    return true;
+  };
+  const Result result = delmesher::tetrahedralize(stars(), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(is_kept(result));
+  EXPECT_FALSE(has_chamfered);
+  options.surface = SurfaceChoice::split;
+  EXPECT_TRUE(delmesher::tetrahedralize(stars(), options).status.ok());
+  EXPECT_TRUE(has_chamfered);
 }
 
 TEST(AutomaticSurface, IsSplitForOptionsThatNeedIt) {

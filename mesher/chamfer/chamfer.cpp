@@ -62,11 +62,11 @@ AcuteCount counted(const Acuteness& acute) {
 
 }  // namespace
 
-ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
-                              Predicates& predicates, const ChamferOptions& options,
+ChamferResult chamfer_surface(const KeptSurface& surface, const Acuteness& acute,
+                              PointStore& points, Predicates& predicates,
+                              const ChamferOptions& options,
                               const std::vector<std::uint8_t>& active, Control& control) {
   const Thresholds thresholds(options);
-  const Acuteness acute = find_acute(surface, predicates, thresholds, active, control);
   const CutOptions cut_options{.max_radius = options.max_radius * surface.scale(),
                                .to_link = options.link_distances,
                                .per_triangle = options.bridge_per_triangle};
@@ -98,7 +98,8 @@ ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predi
                       options.vertex_cosine_squared.size() == topology.vertex_half_edge.size(),
                   "there are not as many thresholds as vertices");
   const KeptSurface surface(topology, points, options.facet_kept);
-  return chamfer_surface(surface, points, predicates, options, {}, control);
+  const Acuteness acute = find_acute(surface, predicates, Thresholds(options), {}, control);
+  return chamfer_surface(surface, acute, points, predicates, options, {}, control);
 }
 
 AcuteCount count_acute(const SurfaceTopology& topology, const PointStore& points,

@@ -243,8 +243,10 @@ TEST(Chamfer, APartIsChamferedLikeTheWhole) {
         const auto [a, b] = part.topology.edge_vertices(e);
         if (a == v || b == v) active[a] = active[b] = 1;
       }
-      const ChamferResult local =
-          chamfer_surface(surface, part.points, part.predicates, options, active, part.control);
+      const Acuteness acute =
+          find_acute(surface, part.predicates, Thresholds(options), active, part.control);
+      const ChamferResult local = chamfer_surface(surface, acute, part.points, part.predicates,
+                                                  options, active, part.control);
       EXPECT_EQ(points_of(model, whole, v), points_of(part, local, v)) << sample.name;
       part.points.truncate(count);
       compared += std::count(active.begin(), active.end(), 0) > 0;

@@ -312,23 +312,36 @@ void FilteredSurface::drop_close() {
   options_.facet_kept = result_.filter.facet_kept;
 }
 
-void FilteredSurface::chamfer() {
-  if (active_.empty()) {
-    result_.chamfer = chamfer::chamfer(topology_, points_, predicates_, options_, control_);
-    return;
+const KeptSurface& FilteredSurface::kept() {
+  if (!kept_) kept_.emplace(topology_, points_, options_.facet_kept);
+  return *kept_;
+}
+
+const Acuteness& FilteredSurface::acute() {
+  if (!acute_) {
+    acute_ = find_acute(kept(), predicates_, Thresholds(options_), active_, control_);
   }
-  kept_.emplace(topology_, points_, options_.facet_kept);
-  result_.chamfer = chamfer_surface(*kept_, points_, predicates_, options_, active_, control_);
+  return *acute_;
+}
+
+double FilteredSurface::crowded_corners() {
+  double count = -3.0 * static_cast<double>(std::ranges::count(acute().vertex, 1));
+  for (const Corner& corner : kept().corners()) count += acute().vertex[corner.vertex];
+  return count;
+}
+
+void FilteredSurface::chamfer() {
+  result_.chamfer =
+      chamfer_surface(kept(), acute(), points_, predicates_, options_, active_, control_);
 }
 
 bool FilteredSurface::drop_small() {
   if (!(filter_.tolerance > 0)) return false;
-  if (!kept_) kept_.emplace(topology_, points_, options_.facet_kept);
-  FacetSet facets(*kept_);
-  const double tolerance = filter_.tolerance * kept_->scale();
+  FacetSet facets(kept());
+  const double tolerance = filter_.tolerance * kept().scale();
   const TooSmall too_small{filter_.chamfered_fraction * tolerance, tolerance, kLongGap};
   const std::vector<FacetId> dropped = drop_for_chamfered_features(
-      *kept_, points_, result_.chamfer, too_small, changed_, filter_.both_sides, facets, control_);
+      kept(), points_, result_.chamfer, too_small, changed_, filter_.both_sides, facets, control_);
   if (dropped.empty()) return false;
   mark_changed(dropped);
   FilterResult& filter = result_.filter;
@@ -355,6 +368,7 @@ void FilteredSurface::mark_changed(const std::vector<FacetId>& dropped) {
 
 void FilteredSurface::forget_chamfer() {
   points_.truncate(first_point_);
+  acute_.reset();
 }
 
 ChamferedSurface FilteredSurface::result() {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "mesher/chamfer/acuteness.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/kept_surface.h"
 
@@ -65,6 +66,10 @@ class FilteredSurface {
 
   // The first step.
   void drop_close();
+  const FilterResult& filter() const { return result_.filter; }
+  // Of what the first step has left: at vertices that chamfer() will find acute, the corners beyond
+  // three at each.
+  double crowded_corners();
   // Chamfers the kept facets: at first all, later only the places that drop_small() has changed.
   void chamfer();
   // The second step: drops facets that are responsible for edges of the chamfered surface shorter
@@ -78,6 +83,8 @@ class FilteredSurface {
  private:
   void mark_changed(const std::vector<FacetId>& dropped);
   void forget_chamfer();
+  const KeptSurface& kept();
+  const Acuteness& acute();
 
   const SurfaceTopology& topology_;
   PointStore& points_;
@@ -91,6 +98,7 @@ class FilteredSurface {
   // again? Empty as long as nothing was dropped.
   std::vector<std::uint8_t> changed_, active_;
   std::optional<KeptSurface> kept_;  // by options_.facet_kept; empty until needed
+  std::optional<Acuteness> acute_;   // of it, where active_
   ChamferedSurface result_;
 };
 

@@ -48,13 +48,17 @@ double kept_tetrahedra(const Session& session) {
   return tetrahedra;
 }
 
+// Every triangle that the filter drops comes back in the final step, with at least one and a half
+// tetrahedra.
+double of_dropped(std::uint64_t triangles) {
+  return 1.5 * static_cast<double>(triangles);
+}
+
 double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, double enough,
                             const Session& session) {
   refine::PredictionOptions options = prediction_options(session);
   if (enough > 0) options.enough = enough;
-  // Every triangle that the filter drops comes back in the final step, with at least one and a half
-  // tetrahedra.
-  return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +
+  return of_dropped(surface.filter.dropped_triangles) +
          refine::predict_tetrahedra(surface.chamfer.plc, session.surface.topology(),
                                     surface.filter.facet_kept, session.points, options,
                                     session.control);
@@ -70,13 +74,40 @@ std::string over_budget(double tau, double budget) {
 
 }  // namespace
 
-void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& session,
-                     Recorder& recorder) {
+// Of a surface that is not chamfered yet: nine tenths of what the kept facets take, and of ten
+// tetrahedra for every corner beyond three at a vertex to be chamfered. On the 459 valid models of
+// the collection the prediction with chamfers is at least 1.2 times this. With few such corners it
+// would cost more than the chamfers, and is left out.
+double Budget::least(chamfer::FilteredSurface& surface, const Session& session) const {
+  constexpr double kShare = 0.9, kPerCorner = 10, kFew = 0.2;  // a triangle
+  const SurfaceTopology& topology = session.surface.topology();
+  const double corners = surface.crowded_corners();
+  if (corners < kFew * static_cast<double>(topology.triangles.size())) return 0;
+  const double others =
+      of_dropped(surface.filter().dropped_triangles) + kShare * kPerCorner * corners;
+  refine::PredictionOptions options = prediction_options(session);
+  options.enough = (budget_ - others) / kShare;
+  return others + kShare * refine::predict_tetrahedra({}, topology, surface.filter().facet_kept,
+                                                      session.points, options, session.control);
+}
+
+bool Budget::is_exceeded_at_least(chamfer::FilteredSurface& surface, const Session& session,
+                                  Recorder& recorder) {
   if (is_automatic_ && budget_ == 0) {
     // Of that predicted, two thirds are left after the improvement, at the median.
     constexpr double kTimes = 4, kLeft = 0.67, kSmall = 300;
     budget_ = kTimes / kLeft * kept_tetrahedra(session) + kSmall;
   }
+  if (budget_ == 0) return false;
+  const bool is_whole = surface.filter().dropped_triangles == 0;
+  predicted_ = is_whole && least_of_whole_ ? *least_of_whole_ : least(surface, session);
+  if (is_whole) least_of_whole_ = predicted_;
+  recorder.predicted(predicted_);
+  return !is_kept();
+}
+
+void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& session,
+                     Recorder& recorder) {
   predicted_ = predicted_tetrahedra(surface, budget_, session);
   recorder.predicted(predicted_);
 }

@@ -1,6 +1,8 @@
 // Policy: how much of the surface the filter drops, so that the mesh keeps to a budget.
 #pragma once
 
+#include <optional>
+
 #include "mesher/chamfer/filter.h"
 #include "mesher/results/recorder.h"
 #include "mesher/run/session.h"
@@ -24,6 +26,10 @@ class Budget {
 
   // In force: a fraction of the diagonal.
   double tau() const { return tau_; }
+  // Does what the first step of the filter has left take too many tetrahedra, however it is
+  // chamfered? Then there is no need to do that.
+  bool is_exceeded_at_least(chamfer::FilteredSurface& surface, const Session& session,
+                            Recorder& recorder);
   // Predicts the mesh of that surface, which was filtered with tau().
   void predict(const chamfer::ChamferedSurface& surface, const Session& session,
                Recorder& recorder);
@@ -36,10 +42,13 @@ class Budget {
   void settle(Session& session) const;
 
  private:
+  double least(chamfer::FilteredSurface& surface, const Session& session) const;
+
   const bool is_automatic_;
   double budget_;  // tetrahedra; 0: none, or not known yet
   const double tau_asked_;
   double tau_, predicted_ = 0;
+  std::optional<double> least_of_whole_;  // least(), with nothing dropped
 };
 
 }  // namespace delmesher::policies
