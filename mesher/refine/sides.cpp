@@ -31,16 +31,10 @@ bool beyond_a_face(const std::array<Vec3, 4>& corner, double error, const Box& b
   return false;
 }
 
-Sides::State classify_exactly(Solid& solid, const VertexId* v) {
-  switch (solid.classify({v[0], v[1], v[2], v[3]})) {
-    case Side::outside:
-      return Sides::State::outside;
-    case Side::inside:
-      return Sides::State::inside;
-    case Side::straddling:
-      break;
-  }
-  return Sides::State::straddling;
+Sides::State state_of(Side side) {
+  return side == Side::inside    ? Sides::State::inside
+         : side == Side::outside ? Sides::State::outside
+                                 : Sides::State::straddling;
 }
 
 }  // namespace
@@ -105,9 +99,24 @@ void Sides::classify_near_removed(Control& control) {
   for_items(control, dt_.capacity(), kChunk, [&](Worker& worker, std::size_t n) {
     const auto t = static_cast<TetId>(n);
     if (!dt_.alive(t) || dt_.is_ghost(t) || state(t) != State::unknown || !near_removed(t)) return;
-    set(t, classify_exactly(mine[worker].own, dt_.vertices(t)));
+    const VertexId* v = dt_.vertices(t);
+    set(t, state_of(mine[worker].own.classify({v[0], v[1], v[2], v[3]})));
   });
   mine.for_each([&](const Mine& m) { dt_.predicates().counters += m.predicates.counters; });
+}
+
+// The exact test; most tetrahedra that are not cut have the side from a neighbour.
+Sides::State Sides::classify(TetId t) {
+  const VertexId* v = dt_.vertices(t);
+  const std::array<VertexId, 4> corners = {v[0], v[1], v[2], v[3]};
+  const Solid::Cut cut = solid_.cut(corners);
+  if (cut.straddles) return State::straddling;
+  for (int i = 0; i < 4; ++i) {
+    const bool is_known = on_surface(t, i) || (cut.faces >> i & 1U) == 0;
+    const State side = is_known ? through(t, i) : State::unknown;
+    if (side != State::unknown) return side;
+  }
+  return solid_.is_inside(corners) ? State::inside : State::outside;
 }
 
 // The side seen through face i of a tetrahedron away from the removed part, unknown if the
@@ -115,7 +124,7 @@ void Sides::classify_near_removed(Control& control) {
 Sides::State Sides::through(TetId t, int i) const {
   const TetId u = dt_.neighbor(t, i);
   const State beyond = dt_.is_ghost(u) ? State::outside : state(u);
-  if (beyond == State::unknown || beyond == State::straddling) return State::unknown;
+  if (beyond != State::inside && beyond != State::outside) return State::unknown;
   if (!on_surface(t, i)) return beyond;
   return beyond == State::inside ? State::outside : State::inside;
 }
@@ -130,7 +139,7 @@ Side Sides::of(TetId t) {
 
 Sides::State Sides::find_out(TetId start) {
   if (near_removed(start)) {
-    set(start, classify_exactly(solid_, dt_.vertices(start)));
+    set(start, classify(start));
     return state(start);
   }
   // Walk over tetrahedra without a known side until one has one, then note it in all of them.
@@ -145,7 +154,7 @@ Sides::State Sides::find_out(TetId start) {
       if (!dt_.is_ghost(u) && state(u) == State::asked) continue;
       if (!dt_.is_ghost(u) && state(u) == State::unknown) {
         if (near_removed(u)) {
-          set(u, classify_exactly(solid_, dt_.vertices(u)));
+          set(u, classify(u));
         } else {
           set(u, State::asked);
           asked.push_back(u);
@@ -157,7 +166,7 @@ Sides::State Sides::find_out(TetId start) {
   }
   // Nobody knows (an island among straddling ones): the test on one of them serves all.
   const TetId source = asked[n - 1];
-  if (found == State::unknown) found = classify_exactly(solid_, dt_.vertices(source));
+  if (found == State::unknown) found = classify(source);
   for (const TetId t : asked) set(t, State::unknown);
   set(source, found);
   tell(source);

@@ -54,6 +54,7 @@ class Sides {
   bool near_removed(TetId t) const;
   // Is face i of t part of the input surface?
   bool on_surface(TetId t, int i) const;
+  State classify(TetId t);
   State through(TetId t, int i) const;
   State find_out(TetId start);
   void tell(TetId source);

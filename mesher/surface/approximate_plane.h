@@ -26,32 +26,34 @@ class ApproximatePlane {
       normal_[k] = p - q;
       // Each difference has the rounding of one subtraction and twice the error of a point; a
       // product has that of both factors and its own, the sum once more.
-      slack_[k] = 8 * kEpsilon * (std::abs(p) + std::abs(q)) + error_ * (4 * size + 8 * error_);
+      const double slack =
+          8 * kEpsilon * (std::abs(p) + std::abs(q)) + error_ * (4 * size + 8 * error_);
+      per_length_ += slack + 8 * kEpsilon * std::abs(normal_[k]);
+      per_displacement_ += slack + std::abs(normal_[k]);
     }
+    per_length_ *= 1 + 16 * kEpsilon;
+    per_displacement_ *= 1 + 16 * kEpsilon;
   }
 
   // 1: certainly on the side from which a, b, c are counter-clockwise, -1: certainly on the other,
   // 0: unknown.
   int side(const Approximation& p) const {
     const Vec3 d = {p.x - origin_[0], p.y - origin_[1], p.z - origin_[2]};
-    const double displacement = 2 * (p.error + error_);
-    double sum = 0, bound = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double length = std::abs(d[k]);
-      sum += normal_[k] * d[k];
-      bound += slack_[k] * (length + displacement) +
-               std::abs(normal_[k]) * (8 * kEpsilon * length + displacement);
-    }
+    const double length = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+    const double sum = normal_[0] * d[0] + normal_[1] * d[1] + normal_[2] * d[2];
     // Far above the error of underflow in the products.
-    bound = bound * (1 + 8 * kEpsilon) + 0x1p-1000;
+    const double bound =
+        per_length_ * length + per_displacement_ * (2 * (p.error + error_)) + 0x1p-1000;
     return sum > bound ? 1 : sum < -bound ? -1 : 0;
   }
 
  private:
   static constexpr double kEpsilon = 0x1p-53;
 
-  Vec3 origin_{}, normal_{}, slack_{};
+  Vec3 origin_{}, normal_{};
   double error_ = 0;
+  // How much a point's sum may be off, for its distance along an axis and for its displacement.
+  double per_length_ = 0, per_displacement_ = 0;
 };
 
 }  // namespace delmesher::surface

@@ -7,6 +7,7 @@
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/geometry/box_tree.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/exact_point.h"
 #include "mesher/surface/approximate_plane.h"
 #include "mesher/surface/tetrahedron_contact.h"
@@ -32,24 +33,17 @@ double upper(double x, double error) {
   return y + (std::fabs(y) * 0x1p-51 + 0x1p-1050);
 }
 
-// The closed boxes of doubles that overlap this box are those that meet the interior of the
-// tetrahedron's bounding box (slightly more if its corners are rounded).
-Box interior_box(const PointStore& points, const Tetrahedron& tetrahedron) {
+// Around the tetrahedron, slightly larger if its corners are rounded.
+Box closed_box(const PointStore& points, const Tetrahedron& tetrahedron) {
   Box box;
-  bool rounded = false;
   for (const VertexId v : tetrahedron) {
     const Approximation& a = points.approximation(v);
     if (a.error == 0) {
       box.extend({{a.x, a.y, a.z}, {a.x, a.y, a.z}});
     } else {
-      rounded = true;
       box.extend({{lower(a.x, a.error), lower(a.y, a.error), lower(a.z, a.error)},
                   {upper(a.x, a.error), upper(a.y, a.error), upper(a.z, a.error)}});
     }
-  }
-  for (std::size_t i = 0; i < 3 && !rounded; ++i) {
-    box.lo[i] = std::nextafter(box.lo[i], kInfinity);
-    box.hi[i] = std::nextafter(box.hi[i], -kInfinity);
   }
   return box;
 }
@@ -83,8 +77,9 @@ bool exact_ray_crosses(const DyadicPoint& p, std::size_t axis, int direction,
 // The planes of a tetrahedron's faces, to reject triangles beyond one of them.
 class TetrahedronFaces {
  public:
-  TetrahedronFaces(const PointStore& points, const Tetrahedron& tetrahedron)
-      : corner_(tetrahedron) {
+  TetrahedronFaces(Predicates& predicates, const Tetrahedron& tetrahedron)
+      : predicates_(predicates), corner_(tetrahedron) {
+    const PointStore& points = predicates.points();
     for (std::size_t k = 0; k < 4; ++k) {
       const auto& face = kInwardFaces[k];
       plane_[k] = {points.approximation(corner_[static_cast<std::size_t>(face[0])]),
@@ -93,22 +88,84 @@ class TetrahedronFaces {
     }
   }
 
-  // Is the triangle certainly not on the inner side of some face? Corners that it shares with the
-  // face are on its plane.
-  bool separate(const PointStore& points, const std::array<VertexId, 3>& triangle) const {
+  // Is no corner of the triangle on the inner side of some face?
+  bool separate(const std::array<VertexId, 3>& triangle) const {
     for (std::size_t k = 0; k < 4; ++k) {
-      const bool beyond = std::ranges::all_of(triangle, [&](VertexId v) {
-        if (plane_[k].side(points.approximation(v)) < 0) return true;
-        return v != corner_[k] && std::ranges::find(corner_, v) != corner_.end();
-      });
-      if (beyond) return true;
+      if (std::ranges::all_of(triangle, [&](VertexId v) { return !is_inside(k, v); })) return true;
     }
     return false;
   }
 
  private:
+  bool is_inside(std::size_t face, VertexId v) const {
+    const int side = plane_[face].side(predicates_.points().approximation(v));
+    if (side != 0) return side > 0;
+    const auto corner = std::ranges::find(corner_, v);
+    if (corner != corner_.end()) return corner - corner_.begin() == std::ptrdiff_t(face);
+    std::array<VertexId, 3> c;
+    for (std::size_t i = 0; i < 3; ++i) {
+      c[i] = corner_[static_cast<std::size_t>(kInwardFaces[face][i])];
+    }
+    return predicates_.orient3d(c[0], c[1], c[2], v) > 0;
+  }
+
+  Predicates& predicates_;
   Tetrahedron corner_;
   std::array<ApproximatePlane, 4> plane_;
+};
+
+// A triangle that may cut tetrahedra, with planes that reject most of them without exact
+// arithmetic: its own, and one through each edge, orthogonal to it except for rounding.
+class CuttingTriangle {
+ public:
+  CuttingTriangle(const SurfaceTopology& topology, const PointStore& points, std::uint32_t t)
+      : corner_(topology.triangles[t]) {
+    std::array<Approximation, 3> p;
+    std::array<Vec3, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      line_[i] = topology.edge_of[3 * t + i];
+      p[i] = points.approximation(corner_[i]);
+      x[i] = {p[i].x, p[i].y, p[i].z};
+    }
+    plane_ = {p[0], p[1], p[2]};
+    const Vec3 u = subtract(x[1], x[0]), normal = cross(u, subtract(x[2], x[0]));
+    const double scale = norm(u) / norm(normal);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const Approximation above{x[i][0] + scale * normal[0], x[i][1] + scale * normal[1],
+                                x[i][2] + scale * normal[2], 0};
+      fence_[i] = {p[i], p[j], above};
+      has_fence_[i] = fence_[i].side(p[k]) < 0;
+    }
+  }
+
+  const ApproximatePlane& plane() const { return plane_; }
+
+  // Is there an edge with no corner of the tetrahedron on this side of it? False if in doubt.
+  bool is_apart(const PointStore& points, const Tetrahedron& tetrahedron) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (has_fence_[i] && std::ranges::all_of(tetrahedron, [&](VertexId v) {
+            const int side = fence_[i].side(points.approximation(v));
+            return side != 0 ? side > 0 : is_on_edge(points, i, v);
+          })) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  bool is_on_edge(const PointStore& points, std::size_t i, VertexId v) const {
+    const auto lines = points.lines(v);
+    return v == corner_[i] || v == corner_[(i + 1) % 3] ||
+           std::binary_search(lines.begin(), lines.end(), line_[i]);
+  }
+
+  std::array<VertexId, 3> corner_;
+  std::array<std::uint32_t, 3> line_{};  // edge i is from corner i to the next
+  ApproximatePlane plane_;
+  std::array<ApproximatePlane, 3> fence_;
+  std::array<bool, 3> has_fence_{};
 };
 
 // Is the double point certainly inside the tetrahedron? Running error bounds, no exact stage.
@@ -159,18 +216,15 @@ struct Solid::Shared {
         tree(boxes),
         cutting(cutting_triangles(boxes, open)),
         cutting_tree(boxes_of(cutting, boxes)) {
-    plane.reserve(cutting.size());
-    for (const std::uint32_t t : cutting) {
-      const auto& [a, b, c] = surface.triangles[t];
-      plane.emplace_back(points.approximation(a), points.approximation(b), points.approximation(c));
-    }
+    triangle.reserve(cutting.size());
+    for (const std::uint32_t t : cutting) triangle.emplace_back(surface, points, t);
   }
 
   const SurfaceTopology& topology;
-  BoxTree tree;                         // of all triangles
-  std::vector<std::uint32_t> cutting;   // triangles that may meet the interior of a tetrahedron
-  BoxTree cutting_tree;                 // of these
-  std::vector<ApproximatePlane> plane;  // of these
+  BoxTree tree;                        // of all triangles
+  std::vector<std::uint32_t> cutting;  // triangles that may meet the interior of a tetrahedron
+  BoxTree cutting_tree;                // of these
+  std::vector<CuttingTriangle> triangle;
 };
 
 struct Solid::Impl {
@@ -181,47 +235,62 @@ struct Solid::Impl {
     input.copy_corners(predicates.points(), n);
   }
 
-  Side classify(const Tetrahedron& tetrahedron) {
+  Cut cut(const Tetrahedron& tetrahedron) {
     const PointStore& points = predicates.points();
-    const Box box = interior_box(points, tetrahedron);
-    if (tree.empty() || !tree.node(0).box.overlaps(box)) return Side::outside;
     std::optional<TetrahedronFaces> faces;
-    const bool disjoint = shared->cutting_tree.query(box, [&](std::uint32_t n) {
+    Cut result;
+    const auto passes_by = [&](std::uint32_t n) {
+      const CuttingTriangle& triangle = shared->triangle[n];
+      if (triangle.is_apart(points, tetrahedron)) return true;
       const std::uint32_t t = shared->cutting[n];
-      if (on_one_side(tetrahedron, t, shared->plane[n])) return true;
-      if (!faces) faces.emplace(points, tetrahedron);
-      if (faces->separate(points, topology.triangles[t])) return true;
-      return !meets_interior(predicates, tetrahedron, topology.triangles[t]);
-    });
-    if (!disjoint) return Side::straddling;
+      const Position position = position_of(tetrahedron, t, triangle.plane());
+      for (unsigned i = 0; i < 4; ++i) {
+        if ((position.near | 1U << i) == 0b1111) result.faces |= 1U << i;
+      }
+      if (position.one_side) return true;
+      if (!faces) faces.emplace(predicates, tetrahedron);
+      return faces->separate(topology.triangles[t]) ||
+             !meets_interior(predicates, tetrahedron, topology.triangles[t]);
+    };
+    result.straddles = !shared->cutting_tree.query(closed_box(points, tetrahedron), passes_by);
+    return result;
+  }
+
+  bool is_inside(const Tetrahedron& tetrahedron) {
+    if (tree.empty()) return false;
+    const PointStore& points = predicates.points();
     Vec3 center{0, 0, 0};
     for (const VertexId v : tetrahedron) {
       const Vec3 p = points.nearest(v);
       for (std::size_t i = 0; i < 3; ++i) center[i] += 0.25 * p[i];
     }
-    const bool inside = certainly_inside(points, tetrahedron, center)
-                            ? contains(center)
-                            : contains_centroid(tetrahedron);
-    return inside ? Side::inside : Side::outside;
+    return certainly_inside(points, tetrahedron, center) ? contains(center)
+                                                         : contains_centroid(tetrahedron);
   }
 
-  // Is no corner of the tetrahedron off the triangle's plane on one of its sides? Without rounding;
-  // false if in doubt.
-  bool on_one_side(const Tetrahedron& tetrahedron, std::uint32_t t,
-                   const ApproximatePlane& triangle_plane) const {
+  // Of a tetrahedron and the plane of a triangle.
+  struct Position {
+    unsigned near = 0;      // its corners that are not certainly off the plane, by bit
+    bool one_side = false;  // no corner is off the plane on the other side; false if in doubt
+  };
+
+  Position position_of(const Tetrahedron& tetrahedron, std::uint32_t t,
+                       const ApproximatePlane& plane) const {
     const PointStore& points = predicates.points();
-    int all = 0;
-    for (const VertexId v : tetrahedron) {
-      const int side = triangle_plane.side(points.approximation(v));
-      if (side == 0) {
-        const auto planes = points.planes(v);
-        const PlaneId own = topology.facet_plane[topology.facet_of[t]];
-        if (!std::binary_search(planes.begin(), planes.end(), own)) return false;
-      }
-      if (side * all < 0) return false;
-      if (side != 0) all = side;
+    const PlaneId own = topology.facet_plane[topology.facet_of[t]];
+    Position result;
+    bool above = false, below = false, known = true;
+    for (unsigned k = 0; k < 4; ++k) {
+      const int side = plane.side(points.approximation(tetrahedron[k]));
+      above |= side > 0;
+      below |= side < 0;
+      if (side != 0) continue;
+      result.near |= 1U << k;
+      const auto planes = points.planes(tetrahedron[k]);
+      known = known && std::binary_search(planes.begin(), planes.end(), own);
     }
-    return all != 0;
+    result.one_side = known && above != below;
+    return result;
   }
 
   struct Ray {
@@ -324,8 +393,17 @@ Solid::Solid(const Solid& other, Predicates& predicates)
 
 Solid::~Solid() = default;
 
+Solid::Cut Solid::cut(const std::array<VertexId, 4>& tetrahedron) {
+  return impl_->cut(tetrahedron);
+}
+
+bool Solid::is_inside(const std::array<VertexId, 4>& tetrahedron) {
+  return impl_->is_inside(tetrahedron);
+}
+
 Side Solid::classify(const std::array<VertexId, 4>& tetrahedron) {
-  return impl_->classify(tetrahedron);
+  if (impl_->cut(tetrahedron).straddles) return Side::straddling;
+  return impl_->is_inside(tetrahedron) ? Side::inside : Side::outside;
 }
 
 }  // namespace delmesher::surface

@@ -30,6 +30,13 @@ class Solid {
   // Side of the open tetrahedron abcd (orient3d > 0; any point kinds): outside or inside if no
   // input triangle meets its interior (touching is fine), else straddling. Exact.
   Side classify(const std::array<VertexId, 4>& tetrahedron);
+  // The same in two parts, for those who know the side of a neighbour.
+  struct Cut {
+    bool straddles = false;
+    unsigned faces = 0;  // bit i: the face opposite corner i may be part of a triangle looked at
+  };
+  Cut cut(const std::array<VertexId, 4>& tetrahedron);
+  bool is_inside(const std::array<VertexId, 4>& tetrahedron);  // of one that does not straddle
 
  private:
   struct Shared;
