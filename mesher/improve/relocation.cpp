@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace delmesher::improve {
 namespace {
@@ -228,6 +229,10 @@ bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
     }
   }
   for (double& x : centre) x /= count;
+  std::vector<std::pair<Tet, int>> around;  // and the corner that moves
+  for (const CreatedTet& tet : wedge.created) {
+    around.emplace_back(tet.vertices, corner_of(wedge.point, tet));
+  }
   float score = 0;
   double step = 1;
   const auto goes_on = [&](int n) {
@@ -237,7 +242,7 @@ bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
     const float before = score;
     for (const Vec3& x :
          {add_scaled(at, step * longest, direction), add_scaled(at, step, centre)}) {
-      const float here = worst_at(wedge, x, score);
+      const float here = worst_at(around, x, score);
       if (here <= score) continue;
       score = here;
       best = x;
@@ -247,15 +252,18 @@ bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
   return score > 0;
 }
 
-// Squared: the sine of the smallest dihedral angle of the new tetrahedra with the point at x; 0 if
-// it is not above `best`, or one is not positive. (Other measures are beyond the range of floats
-// where all is flat; kNotCounted leaves them out.)
-float Relocation::worst_at(const Wedge& wedge, const Vec3& x, float best) const {
+// Squared: the sine of the smallest dihedral angle of the tetrahedra with the corner at x; 0 if it
+// is not above `best`, or one is not positive. (Other measures are beyond the range of floats where
+// all is flat; kNotCounted leaves them out.) What forbids one place often forbids the next.
+float Relocation::worst_at(std::span<std::pair<Tet, int>> around, const Vec3& x, float best) const {
   float worst = HUGE_VALF;
-  for (const CreatedTet& tet : wedge.created) {
-    const Quality q =
-        state_.quality_with(tet.vertices, corner_of(wedge.point, tet), x, kNotCounted);
-    if (!(q.dihedral > best)) return 0;
+  for (auto& one : around) {
+    const auto& [tet, corner] = one;
+    const Quality q = state_.quality_with(tet, corner, x, kNotCounted);
+    if (!(q.dihedral > best)) {
+      std::swap(one, around.front());
+      return 0;
+    }
     worst = std::min(worst, q.dihedral);
   }
   return worst;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/improve/state.h"
@@ -51,7 +52,7 @@ class Relocation {
   std::size_t best_ear(const std::vector<VertexId>& polygon, const Vec3& normal) const;
   static Vec3 inwards(const Wedge& wedge);
   bool find_place(const Wedge& wedge, bool fine, Vec3& best) const;
-  float worst_at(const Wedge& wedge, const Vec3& x, float best) const;
+  float worst_at(std::span<std::pair<Tet, int>> around, const Vec3& x, float best) const;
   bool fits(const Wedge& wedge, const Place& place);
   bool place_all(bool fine);
   bool place(const Wedge& wedge, bool fine);
