@@ -155,29 +155,37 @@ struct Refinement {
   Recorder& recorder;
   Budget budget{s.options};
   Fallback fallback{s.options};
+  std::optional<chamfer::FilteredSurface> surface{};
   chamfer::ChamferedSurface chamfered{};
   refine::RefineResult refined{};
 
   // Sections 4 and 7, in turn until neither leaves anything to the other; false if the first step
   // shows that the mesh will not keep to the budget.
   bool filter(bool within_budget) {
-    s.points.truncate(s.input_vertices());
-    chamfer::FilteredSurface surface = filtered_surface(budget.tau(), fallback.chamfering(), s);
     s.control.enter(Phase::filter);
-    surface.drop_close();
-    if (within_budget && budget.is_exceeded_at_least(surface, s, recorder)) return false;
+    surface->drop_close();
+    if (within_budget && budget.is_exceeded_at_least(*surface, s, recorder)) return false;
     do {
       s.control.enter(Phase::chamfer);
-      surface.chamfer();
+      surface->chamfer();
       s.control.enter(Phase::filter);
-    } while (surface.drop_small());
+    } while (surface->drop_small());
     s.control.enter(Phase::chamfer);
-    chamfered = surface.result();
     return true;
+  }
+  void begin() {
+    s.points.truncate(s.input_vertices());
+    surface.emplace(filtered_surface(budget.tau(), fallback.chamfering(), s));
+  }
+  void end() {
+    chamfered = surface->result();
+    surface.reset();
   }
   void refine() { refined = refine_mesh(chamfered, budget.tau(), fallback, s); }
   void refine_anew() {
+    begin();
     filter(false);
+    end();
     refine();
   }
 };
@@ -187,7 +195,7 @@ struct Filtering {
   Refinement& r;
 
   void attempt() {
-    if (r.filter(true)) r.budget.predict(r.chamfered, r.s, r.recorder);
+    if (r.filter(true)) r.budget.predict(*r.surface, r.s, r.recorder);
   }
   bool good_enough() const { return r.budget.is_kept(); }
 };
@@ -196,6 +204,7 @@ constexpr Step<Filtering> kFiltering[] = {
     {Rung::larger_tau, [](const Filtering& f) { return f.r.budget.can_raise_tau(); },
      [](Filtering& f) {
        f.r.budget.raise_tau();
+       f.r.surface->raise(f.r.budget.tau() * f.r.s.diagonal);
        f.attempt();
      }},
 };
@@ -346,10 +355,12 @@ Status mesh_with(Planes planes, Given& given, Session& s, Recorder& recorder) {
   if (Status status = prepare(given, planes, s, recorder); !status.ok()) return status;
 
   Refinement refinement{s, recorder};
+  refinement.begin();
   Filtering filtering{refinement};
   filtering.attempt();
   climb(filtering, kFiltering, recorder.ladder());
   refinement.budget.settle(s);
+  refinement.end();
   refinement.refine();
   Guarded guard{refinement};
   climb(guard, kGuard, recorder.ladder());

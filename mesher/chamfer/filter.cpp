@@ -305,11 +305,29 @@ FilteredSurface::FilteredSurface(const SurfaceTopology& topology, PointStore& po
   options_.isolated_clearance = std::max(options_.isolated_clearance, filter.tolerance);
 }
 
+void FilteredSurface::raise(double tolerance) {
+  filter_.tolerance = tolerance;
+  options_.isolated_clearance = std::max(options_.isolated_clearance, tolerance);
+}
+
+// Nothing was dropped, and no flat vertex may be too near to something.
+bool FilteredSurface::is_as_chamfered() const {
+  return result_.filter.dropped_triangles == 0 &&
+         result_.filter.facet_kept == options_.facet_kept &&
+         std::ranges::all_of(result_.chamfer.plc.facets,
+                             [](const PlcFacet& facet) { return facet.isolated.empty(); });
+}
+
 void FilteredSurface::drop_close() {
   result_.filter = filter_.all_pairs
                        ? filter_all_pairs(topology_, points_, filter_.tolerance, control_)
                        : filter_input(topology_, points_, filter_.tolerance, control_);
+  if (is_chamfered_ && is_as_chamfered()) return;
   options_.facet_kept = result_.filter.facet_kept;
+  kept_.reset();
+  forget_chamfer();
+  changed_.assign(changed_.size(), 1);
+  active_.clear();
 }
 
 const KeptSurface& FilteredSurface::kept() {
@@ -331,8 +349,11 @@ double FilteredSurface::crowded_corners() {
 }
 
 void FilteredSurface::chamfer() {
+  if (is_chamfered_) return;
   result_.chamfer =
       chamfer_surface(kept(), acute(), points_, predicates_, options_, active_, control_);
+  is_chamfered_ = active_.empty();
+  ++times_chamfered_;
 }
 
 bool FilteredSurface::drop_small() {
@@ -369,14 +390,20 @@ void FilteredSurface::mark_changed(const std::vector<FacetId>& dropped) {
 void FilteredSurface::forget_chamfer() {
   points_.truncate(first_point_);
   acute_.reset();
+  is_chamfered_ = false;
 }
 
-ChamferedSurface FilteredSurface::result() {
+const ChamferedSurface& FilteredSurface::finish() {
   if (!active_.empty()) {
     forget_chamfer();
     active_.clear();
     chamfer();
   }
+  return result_;
+}
+
+ChamferedSurface FilteredSurface::result() {
+  finish();
   return std::move(result_);
 }
 

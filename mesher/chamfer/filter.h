@@ -56,14 +56,16 @@ struct ChamferedSurface {
 };
 
 // Both steps of section 7 around the chamfering of section 4, for the driver to alternate:
-//   drop_close(); do chamfer(); while (drop_small()); result()
-// Appends the points of the last chamfering to the store; those of earlier ones are taken back.
+//   drop_close(); do chamfer(); while (drop_small()); finish()
+// Once more with a larger tolerance, after raise(). Appends the points of the last chamfering to
+// the store; those of earlier ones are taken back.
 class FilteredSurface {
  public:
   // options.facet_kept is not looked at.
   FilteredSurface(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                   ChamferOptions options, const FilterOptions& filter, Control& control);
 
+  void raise(double tolerance);
   // The first step.
   void drop_close();
   const FilterResult& filter() const { return result_.filter; }
@@ -71,18 +73,24 @@ class FilteredSurface {
   // three at each.
   double crowded_corners();
   // Chamfers the kept facets: at first all, later only the places that drop_small() has changed.
+  // After raise(), only if something was dropped or the tolerance matters to flat vertices.
   void chamfer();
+  // How often it did.
+  std::uint64_t times_chamfered() const { return times_chamfered_; }
   // The second step: drops facets that are responsible for edges of the chamfered surface shorter
   // than chamfered_fraction * tolerance, for elements of it that are closer than that, or for a gap
   // narrower than the tolerance that fits kLongGap times along both of its edges. Of two elements
   // one side is dropped, or both (FilterOptions). False if there was nothing to drop.
   bool drop_small();
-  // Chamfers all that is kept, unless chamfer() just did. The object is empty then.
+  // Chamfers all that is kept, unless chamfer() just did.
+  const ChamferedSurface& finish();
+  // The same; the object is empty then.
   ChamferedSurface result();
 
  private:
   void mark_changed(const std::vector<FacetId>& dropped);
   void forget_chamfer();
+  bool is_as_chamfered() const;
   const KeptSurface& kept();
   const Acuteness& acute();
 
@@ -91,7 +99,7 @@ class FilteredSurface {
   Predicates& predicates_;
   Control& control_;
   ChamferOptions options_;
-  const FilterOptions filter_;
+  FilterOptions filter_;
   const std::size_t first_point_;
   // Per vertex. `changed_`: did the last drop change the points made for it? At first all are 1.
   // `active_`: did it change those of a neighbour, too, so that the vertex must be chamfered
@@ -99,6 +107,8 @@ class FilteredSurface {
   std::vector<std::uint8_t> changed_, active_;
   std::optional<KeptSurface> kept_;  // by options_.facet_kept; empty until needed
   std::optional<Acuteness> acute_;   // of it, where active_
+  bool is_chamfered_ = false;        // is result_.chamfer of all that is kept?
+  std::uint64_t times_chamfered_ = 0;
   ChamferedSurface result_;
 };
 

@@ -100,15 +100,20 @@ bool Budget::is_exceeded_at_least(chamfer::FilteredSurface& surface, const Sessi
   }
   if (budget_ == 0) return false;
   const bool is_whole = surface.filter().dropped_triangles == 0;
-  predicted_ = is_whole && least_of_whole_ ? *least_of_whole_ : least(surface, session);
-  if (is_whole) least_of_whole_ = predicted_;
+  const double taken = is_whole && least_of_whole_ ? *least_of_whole_ : least(surface, session);
+  if (is_whole) least_of_whole_ = taken;
+  if (taken <= budget_) return false;
+  predicted_ = taken;
   recorder.predicted(predicted_);
-  return !is_kept();
+  return true;
 }
 
-void Budget::predict(const chamfer::ChamferedSurface& surface, const Session& session,
+void Budget::predict(chamfer::FilteredSurface& surface, const Session& session,
                      Recorder& recorder) {
-  predicted_ = predicted_tetrahedra(surface, budget_, session);
+  const chamfer::ChamferedSurface& chamfered = surface.finish();
+  if (times_chamfered_ == surface.times_chamfered()) return;
+  times_chamfered_ = surface.times_chamfered();
+  predicted_ = predicted_tetrahedra(chamfered, budget_, session);
   recorder.predicted(predicted_);
 }
 

@@ -31,8 +31,7 @@ class Budget {
   bool is_exceeded_at_least(chamfer::FilteredSurface& surface, const Session& session,
                             Recorder& recorder);
   // Predicts the mesh of that surface, which was filtered with tau().
-  void predict(const chamfer::ChamferedSurface& surface, const Session& session,
-               Recorder& recorder);
+  void predict(chamfer::FilteredSurface& surface, const Session& session, Recorder& recorder);
   bool is_kept() const { return budget_ == 0 || predicted_ <= budget_; }
   // Not beyond a twentieth of the diagonal, because whole features of the model would go.
   bool can_raise_tau() const;
@@ -49,6 +48,7 @@ class Budget {
   const double tau_asked_;
   double tau_, predicted_ = 0;
   std::optional<double> least_of_whole_;  // least(), with nothing dropped
+  std::uint64_t times_chamfered_ = 0;     // before the last prediction
 };
 
 }  // namespace delmesher::policies
