@@ -264,6 +264,7 @@ improve::ImproveResult improve_final(ConformingMesh& mesh, Session& s,
                                      const improve::Sparing& sparing = {}) {
   improve::ImproveOptions options = improve_options(s.options.region, s);
   options.sparing = sparing;
+  options.halve_edges = true;  // also where corners came back unrefined
   improve::ImproveResult result =
       improve::improve(std::move(mesh), &s.surface.topology(), s.surface.given_vertices(), options,
                        s.points, s.predicates, s.control);

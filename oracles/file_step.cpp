@@ -102,9 +102,10 @@ void FileStep::check_points(const TetComplex& complex, double near) {
   add(std::move(points));
 }
 
-// A corner that chamfering cut off and that came back is not refined. Whether a long edge is at
-// such a corner is in the record: there the refined mesh, and what followed, are decided. Nothing
-// excuses one beside a surface that is kept and has no such edge.
+// Edges at corners that were cut off and came back are halved afterwards, and those of a surface
+// that is kept where need be, unless doubles are too coarse for the halves of flat tetrahedra. Those
+// left are said first. Nothing excuses one beside a surface that was to be kept and has no such
+// edge.
 void FileStep::check_lengths(const TetComplex& complex, std::span<const Face> surface) {
   const double longest = options_.promised.max_edge * EdgeSizes::kMost;
   const bool fine = std::ranges::all_of(surface, [&](const Face& face) {
@@ -117,9 +118,10 @@ void FileStep::check_lengths(const TetComplex& complex, std::span<const Face> su
 
 void FileStep::check_lengths(const TetComplex& complex, std::span<const double> each, bool fine) {
   const bool keep = options_.promised.keep;
+  const bool excusable = !keep || options_.promised.halves;
   for (OracleReport& lengths : check_edge_lengths(complex, options_.promised, each, scope())) {
     const bool edges = lengths.name == "edges";
-    if (!(keep && edges && fine)) {
+    if (excusable || !edges || !fine) {
       excuse_long_edges(edges ? options_.promised.bound_on_edges() : "--size-field",
                         keep || exact_ != nullptr, lengths, report_.unproven);
     }

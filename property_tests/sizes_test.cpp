@@ -54,7 +54,6 @@ oracles::VerifyReport verified(const Surface& surface, const Result& result,
   return report;
 }
 
-// But for corners that were cut off and came back, which the oracles leave to the record.
 TEST(Sizes, EdgesHaveTheSizeOnAverage) {
   const std::pair<Surface, double> parts[] = {
       {box({1, 1, 1}), 0.125}, {box({10, 1, 1}), 0.4}, {box({3, 2, 1}), 0.2}};
@@ -79,6 +78,31 @@ TEST(Sizes, EdgesHaveTheSizeOnAverage) {
     // Half of it was not promised to those who asked for this size.
     options.size = size / 2;
     EXPECT_FALSE(verified(surface, result, options).all_passed());
+  }
+}
+
+// Corners that chamfering cut off come back unrefined. So the surface is split, and no edge of the
+// written mesh is too long.
+TEST(Sizes, BoundsHoldAtCornersThatComeBack) {
+  for (const double height : {3.0, 12.0, 40.0}) {
+    Surface spike;
+    spike.vertices = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, {0, 0, height}};
+    spike.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    for (const bool field : {false, true}) {
+      Options options;
+      options.want_exact = true;
+      if (field) {
+        options.size_field = {{{0, 0, height}, 0.3}};
+      } else {
+        options.max_edge = 0.7;
+      }
+      const Result result = delmesher::tetrahedralize(spike, options);
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      EXPECT_EQ(result.statistics.ladder[delmesher::Rung::keep_surface], 0U);
+      const oracles::VerifyReport report = verified(spike, result, options);
+      EXPECT_TRUE(report.all_passed() && report.unproven.empty()) << to_text(report);
+      EXPECT_NE(report.find(field ? "sizes" : "edges"), nullptr);
+    }
   }
 }
 

@@ -25,8 +25,7 @@ std::string coarseness_text(const Result& result, const Options& options,
 std::vector<std::string> quality_warnings(const Result& result, double delta);
 
 // Warnings where edges of the mesh are longer than max_edge, `sizes` with size_growth, or, in their
-// regions, region_sizes allow: how many, and the longest. Those of corners that come back after
-// refinement are not refined.
+// regions, region_sizes allow: how many, and the longest.
 std::vector<std::string> edge_warnings(const Result& result, const Options& options,
                                        const std::vector<SizeSource>& sizes,
                                        const std::map<std::int32_t, std::string>& label_names);

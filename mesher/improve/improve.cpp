@@ -69,10 +69,8 @@ class Improvement {
     repair();
     if (options_.unfinished) return;
     mend();
-    if (options_.keep_surface) {
-      clear_rest();
-      shorten();
-    }
+    if (options_.keep_surface) clear_rest();
+    if (options_.keep_surface || options_.halve_edges) shorten();
   }
 
   std::uint64_t spared() const { return spared_; }

@@ -39,7 +39,7 @@ struct ImproveOptions {
   // No vertex is added to the surface, those that are not of the input leave it, and the volume is
   // filled with points (filling.h).
   bool keep_surface = false;
-  // With that: edges of the surface that are longer than wanted get points all the same.
+  // Edges that are longer than wanted get points all the same, those of the surface as well.
   bool halve_edges = false;
   // The mesh will be improved once more: the last resorts wait.
   bool unfinished = false;

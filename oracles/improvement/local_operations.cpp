@@ -1,6 +1,7 @@
 #include "oracles/improvement/local_operations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -155,9 +156,10 @@ class Improvement {
         doubles_(all_rounded(points, {})),
         all_(promise.region == delmesher::Region::hull),
         goal_{promise.guaranteed_delta(), kImprovedDihedral},
+        halves_(promise.task == Task::mesh),
         longest_(promise.max_edge),
         sizes_(promise.size_field, promise.size_growth),
-        returned_(returned) {
+        excused_from_(returned) {
     if (names_origin(record)) written_ = all_rounded(points, record.origin);
   }
 
@@ -173,7 +175,8 @@ class Improvement {
                        {"below the goals after", static_cast<double>(bad_.size())}};
     explain();
     if (!bad_.empty()) explain_by_place();
-    if (!returned_.empty()) excuse();
+    find_long_edges();
+    if (!excused_from_.empty()) excuse();
     for (const Bad& bad : bad_) {
       report_.fail(name_of(bad.tet) + " has a face angle of " + std::to_string(bad.angles.face) +
                    " degrees and lacks " + std::to_string(bad.angles.dihedral) +
@@ -275,11 +278,37 @@ class Improvement {
     report_.figures.emplace_back(kByPlace, static_cast<double>(explained));
   }
 
-  // What is left may be beside an edge of the surface that the mesh before did not have. How many,
-  // how bad and how far from such edges is told.
+  // Edges that were too long are halved, whatever becomes of the angles there; as many tetrahedra
+  // come as cubes of the length asked for are in one of the length that was there.
+  void find_long_edges() {
+    if (!halves_ || (longest_ == 0 && sizes_.empty())) return;
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      if (!counts(tet)) continue;
+      double most = 1;
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const Index v = tet.vertices[i], w = tet.vertices[j];
+          const double excess = excess_of(v, w);
+          if (excess > EdgeSizes::kMost) excused_from_.insert(excused_from_.end(), {v, w});
+          most = std::max(most, excess);
+        }
+      }
+      halves_expected_ += std::pow(most, 3) - 1;
+    }
+  }
+
+  double excess_of(Index v, Index w) const {
+    const double length = longest_ > 0 ? exact::distance(doubles_, v, w) / longest_ : 0;
+    return sizes_.empty()
+               ? length
+               : std::max(length, sizes_.excess(doubles_.nearest(v), doubles_.nearest(w)));
+  }
+
+  // What is left may be beside an edge of the surface that the mesh before did not have, or one
+  // that was too long. How many, how bad and how far from such edges is told.
   void excuse() {
     std::vector<std::uint8_t> near(doubles_.size());
-    for (const Index v : returned_) near[v] = 1;
+    for (const Index v : excused_from_) near[v] = 1;
     std::size_t excused = 0;
     WorstAngles worst;
     int farthest = 0;
@@ -301,7 +330,7 @@ class Improvement {
       }
     }
     excused_ = near;
-    report_.figures.emplace_back("below the goals beside edges that came back",
+    report_.figures.emplace_back("below the goals beside edges that came back or were too long",
                                  static_cast<double>(excused));
     if (excused == 0) return;
     report_.figures.emplace_back("smallest face angle there", worst.face);
@@ -335,7 +364,8 @@ class Improvement {
     std::uint64_t inside_before = 0;
     for (const ExactRecord::Tet& tet : record_.unrepaired) inside_before += counts(tet) ? 1 : 0;
     report_.figures.emplace_back("counted before", static_cast<double>(inside_before));
-    if (report_.checked > 2 * inside_before + kFew) {
+    const double expected = static_cast<double>(inside_before) + halves_expected_;
+    if (static_cast<double>(report_.checked) > 2 * expected + kFew) {
       report_.fail("there are " + std::to_string(report_.checked) + " tetrahedra, and were " +
                    std::to_string(inside_before));
     }
@@ -541,14 +571,16 @@ class Improvement {
   std::optional<ExactPoints> written_;  // in given coordinates, where these have another origin
   const bool all_;
   const WorstAngles goal_;
+  const bool halves_;  // edges that were too long
   const double longest_;
   const EdgeSizes sizes_;
-  const std::vector<Index>& returned_;
-  std::vector<WorstAngles> worst_;  // per point, of the tetrahedra there before
+  double halves_expected_ = 0;       // tetrahedra
+  std::vector<Index> excused_from_;  // on edges that came back or were too long
+  std::vector<WorstAngles> worst_;   // per point, of the tetrahedra there before
   WorstAngles before_, after_;
   std::vector<Bad> bad_;               // those that nothing explains so far
   std::vector<Tet> bad_after_;         // all of them
-  std::vector<std::uint8_t> excused_;  // vertices near edges that came back
+  std::vector<std::uint8_t> excused_;  // vertices near these
   std::uint64_t defects_ = 0;
   OracleReport report_{"improvement", "tetrahedra"};
 };

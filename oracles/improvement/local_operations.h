@@ -33,7 +33,8 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
 inline constexpr double kImprovedDihedral = 17;
 inline constexpr char kByPlace[] = "explained by their place";
 // `returned`: the vertices on edges of the surface that the mesh before did not have, because it
-// was one of a stand-in; near them, as far as along as many edges, anything may be bad.
+// was one of a stand-in; near them, as far as along as many edges, anything may be bad; as near
+// edges that were too long before, which `mesh` halves.
 OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,
                                const Promise& promise, const std::vector<Index>& returned = {});
 
