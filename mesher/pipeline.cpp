@@ -1,7 +1,10 @@
 // The order of the stages: Algorithm 2 of the paper, and the policies that repeat parts of it.
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -98,6 +101,32 @@ struct Given {
   }
 };
 
+// A tetrahedron has at most the volume of a regular one with its longest edge, and its faces the
+// area of an equilateral one.
+Status sizes_can_be_numbered(const Surface& surface, const Session& s) {
+  const double edge = s.options.max_edge;
+  if (edge == 0) return {};
+  double area = 0, volume = 0;
+  for (const auto& t : surface.triangles) {
+    const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]],
+               &c = surface.vertices[t[2]];
+    area += norm(cross(subtract(b, a), subtract(c, a))) / 2;
+    volume +=
+        dot(subtract(a, surface.vertices.front()),
+            cross(subtract(b, surface.vertices.front()), subtract(c, surface.vertices.front()))) /
+        6;
+  }
+  const bool kept = s.options.surface == SurfaceChoice::keep || is_complex(s);
+  const double least = std::max(kept ? 0 : area / edge / edge * 4 / std::numbers::sqrt3,
+                                std::fabs(volume) / edge / edge / edge * 6 * std::numbers::sqrt2);
+  if (least < 0x1p32) return {};
+  char text[100];
+  std::snprintf(text, sizeof text,
+                "edges so short take %.2g tetrahedra at least, more than can be numbered",
+                std::min(least, 1e300));
+  return {StatusCode::limit_reached, text, Limit::size};
+}
+
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
 // near-coplanar triangles in exactly one plane. A complex as it is given.
 Status prepare(Given& given, Planes planes, Session& s, Recorder& recorder) {
@@ -109,6 +138,7 @@ Status prepare(Given& given, Planes planes, Session& s, Recorder& recorder) {
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
   if (Status status = sizes_are_doubles(surface, s); !status.ok()) return status;
+  if (Status status = sizes_can_be_numbered(surface, s); !status.ok()) return status;
   if (rules == Rules::solid) {
     recorder.planar(enter_surface(surface, validity, planes, s), validity);
     return {};

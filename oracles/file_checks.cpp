@@ -88,7 +88,8 @@ std::string SolidStep::run() {
     if (exact_ == nullptr) add(surface_not_decided("conformity"));
     return {};
   }
-  check_points(complex, options_.promised.planar_share() * diagonal_);
+  check_points(complex,
+               std::max(kRoundedUlps * ulp_, options_.promised.planar_share() * diagonal_));
   const bool solid_only =
       fills(complex, surface,
             std::max(kRoundedUlps * ulp_, options_.promised.planar_share() * diagonal_));

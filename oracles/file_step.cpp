@@ -103,9 +103,9 @@ void FileStep::check_points(const TetComplex& complex, double near) {
 }
 
 // Edges at corners that were cut off and came back are halved afterwards, and those of a surface
-// that is kept where need be, unless doubles are too coarse for the halves of flat tetrahedra. Those
-// left are said first. Nothing excuses one beside a surface that was to be kept and has no such
-// edge.
+// that is kept where need be, unless doubles are too coarse for the halves of flat tetrahedra.
+// Those left are said first. Nothing excuses one beside a surface that was to be kept and has no
+// such edge.
 void FileStep::check_lengths(const TetComplex& complex, std::span<const Face> surface) {
   const double longest = options_.promised.max_edge * EdgeSizes::kMost;
   const bool fine = std::ranges::all_of(surface, [&](const Face& face) {

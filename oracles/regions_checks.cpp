@@ -78,7 +78,7 @@ std::string RegionsStep::run() {
   }
   add(std::move(parts.parts));
   add(std::move(parts.regions));
-  check_points(complex, 0);
+  check_points(complex, kRoundedUlps * ulp_);
   if (mesh_.lists_boundary || parts.list.checked > 0) add(std::move(parts.list));
   complex.inside.assign(complex.tetrahedra.size(), 1);
   OracleReport angles("angles", "tetrahedra inside");

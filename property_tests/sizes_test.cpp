@@ -106,6 +106,21 @@ TEST(Sizes, BoundsHoldAtCornersThatComeBack) {
   }
 }
 
+// More tetrahedra than can be numbered: at once, however small.
+TEST(Sizes, AreNotTooSmall) {
+  for (const double size : {1e-4, 1e-9, 1e-300}) {
+    for (const auto choice :
+         {delmesher::SurfaceChoice::automatic, delmesher::SurfaceChoice::keep}) {
+      Options options;
+      options.size = size;
+      options.surface = choice;
+      const Result result = delmesher::tetrahedralize(box({1, 1, 1}), options);
+      EXPECT_EQ(result.status.limit, delmesher::Limit::size) << size;
+      EXPECT_NE(result.status.message.find("more than can be numbered"), std::string::npos);
+    }
+  }
+}
+
 TEST(Sizes, TheSmallerBoundCounts) {
   const Surface surface = box({3, 2, 1});
   const auto mesh = [&](double size, double max_edge) {

@@ -139,8 +139,8 @@ TEST_F(Program, PointsBecomeVertices) {
   EXPECT_EQ(run("in.poly -o mesh.mesh --points none.txt"), 3);
 }
 
-// Corners that chamfering took off come back unrefined, the apex of a steep pyramid: their edges are
-// halved, but not on a surface that is kept.
+// Corners that chamfering took off come back unrefined, the apex of a steep pyramid: their edges
+// are halved, but not on a surface that is kept.
 TEST_F(Program, EdgesThatAreTooLongAreHalvedOrSaid) {
   write("in.off",
         "OFF\n5 6 0\n-2 -2 0\n2 -2 0\n2 2 0\n-2 2 0\n0 0 12\n3 0 2 1\n3 0 3 2\n3 0 1 4\n3 1 2 4\n"

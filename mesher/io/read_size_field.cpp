@@ -19,7 +19,14 @@ void add(const SizeSource& source, Position here, std::vector<SizeSource>& sourc
   sources.push_back(source);
 }
 
-// Calls visit(numbers, here) for each line of so many numbers.
+// The name of a column, not a number with a mistake in it.
+bool is_name(std::string_view token) {
+  double value = 0;
+  return parse_double(token, value) == NumberStatus::malformed &&
+         std::string_view("+-.0123456789").find(token.front()) == std::string_view::npos;
+}
+
+// Calls visit(numbers, here) for each line of so many numbers. The first line may be of names.
 template <std::size_t kCount, class Visit>
 void parse_lines(std::string_view text, const std::string& expected, const Visit& visit) {
   TextLines in(text, Comments::at_token_start, ',');
@@ -27,15 +34,14 @@ void parse_lines(std::string_view text, const std::string& expected, const Visit
     const Position here = at_line(in.line());
     std::array<double, kCount> numbers;
     std::size_t count = 0;
-    bool words = false;
+    bool names = false;
     for (std::string_view token; in.next_token(token); ++count) {
-      double value = 0;
-      words = words || (first && parse_double(token, value) == NumberStatus::malformed);
-      if (words) continue;
+      names = names || (first && count == 0 && is_name(token));
+      if (names) continue;
       if (count == kCount) fail(here, "more numbers than expected: " + expected);
       numbers[count] = number_of(token, here);
     }
-    if (words) continue;  // names of columns
+    if (names) continue;
     if (count != kCount) fail(here, "fewer numbers than expected: " + expected);
     visit(numbers, here);
   }

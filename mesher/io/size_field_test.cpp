@@ -81,6 +81,8 @@ TEST_F(SizeFieldFiles, OfPointsAreLinesOfThreeNumbers) {
   using Points = std::vector<std::array<double, 3>>;
   EXPECT_EQ(points("x y z\n1 2 3 # here\n4,5,.5\n").points, (Points{{1, 2, 3}, {4, 5, 0.5}}));
   EXPECT_EQ(points("1 2 3\n1 2\n").error, path_ + ":2: fewer numbers than expected: X Y Z");
+  EXPECT_EQ(points("1 2 3x\n4 5 6\n").error, path_ + ":1: not a number: '3x'");
+  EXPECT_EQ(points("0.5;0.5;0.5\n4 5 6\n").error, path_ + ":1: not a number: '0.5;0.5;0.5'");
   EXPECT_EQ(points("1 2 3 4\n").error, path_ + ":1: more numbers than expected: X Y Z");
   EXPECT_EQ(points("# none\n").error, path_ + ": no points in it");
   EXPECT_FALSE(read_points(path_ + ".none").ok());

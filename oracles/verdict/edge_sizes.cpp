@@ -92,7 +92,8 @@ std::string read_lines(const std::string& text, std::size_t count, const std::st
     const std::vector<std::string> words = words_of_line(line);
     if (words.empty()) continue;
     const bool numbers = std::all_of(words.begin(), words.end(), is_number);
-    const bool is_head = first && !numbers;
+    const bool is_head = first && !is_number(words[0]) &&
+                         std::string_view("+-.0123456789").find(words[0][0]) == std::string::npos;
     first = false;
     if (is_head) continue;
     if (!numbers || words.size() != count) return "a line is not " + what + ": " + line;
