@@ -250,7 +250,7 @@ TEST_F(Program, MissingAndUnwritableFilesAreSaid) {
 }
 
 // A cube with edges this short would take hours.
-constexpr const char* kEndless = "mesh in.off -o mesh.mesh --stats stats.json --max-edge 0.0005";
+constexpr const char* kEndless = "mesh in.off -o mesh.mesh --stats stats.json --max-edge 0.002";
 
 TEST_F(Program, LimitsAreFive) {
   write("in.off", cube());
@@ -629,7 +629,7 @@ TEST_F(Program, ASignalEndsAWholeFolder) {
   write("in.off", cube());
   write("in.2.off", cube());
   write("in.3.off", cube());
-  EXPECT_EQ(run("mesh in.off in.2.off in.3.off -o out/{name}.mesh --max-edge 0.0005 --jobs 2",
+  EXPECT_EQ(run("mesh in.off in.2.off in.3.off -o out/{name}.mesh --max-edge 0.002 --jobs 2",
                 "timeout --foreground --preserve-status -s TERM 2"),
             130);
   const std::string said = text("err.txt");
