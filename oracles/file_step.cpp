@@ -83,9 +83,7 @@ bool FileStep::check_tetrahedra(const ExactPoints& points, bool is_part, TetComp
 
 void FileStep::say_first(const std::string& what, OracleReport& oracle) {
   report_.unproven.push_back(what);
-  oracle.promised = false;
-  oracle.violations = 0;
-  oracle.findings.clear();
+  oracle.only_count();
 }
 
 // Others than delmesher promise no such vertices.

@@ -159,6 +159,7 @@ class Improvement {
         halves_(promise.task == Task::mesh),
         longest_(promise.max_edge),
         sizes_(promise.size_field, promise.size_growth),
+        bound_(promise.size_field, promise.size_growth, promise.max_edge),
         excused_from_(returned) {
     if (names_origin(record)) written_ = all_rounded(points, record.origin);
   }
@@ -281,27 +282,20 @@ class Improvement {
   // Edges that were too long are halved, whatever becomes of the angles there; as many tetrahedra
   // come as cubes of the length asked for are in one of the length that was there.
   void find_long_edges() {
-    if (!halves_ || (longest_ == 0 && sizes_.empty())) return;
+    if (!halves_ || bound_.empty()) return;
     for (const ExactRecord::Tet& tet : record_.unrepaired) {
       if (!counts(tet)) continue;
       double most = 1;
       for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < i; ++j) {
           const Index v = tet.vertices[i], w = tet.vertices[j];
-          const double excess = excess_of(v, w);
+          const double excess = bound_.excess(doubles_.nearest(v), doubles_.nearest(w));
           if (excess > EdgeSizes::kMost) excused_from_.insert(excused_from_.end(), {v, w});
           most = std::max(most, excess);
         }
       }
       halves_expected_ += std::pow(most, 3) - 1;
     }
-  }
-
-  double excess_of(Index v, Index w) const {
-    const double length = longest_ > 0 ? exact::distance(doubles_, v, w) / longest_ : 0;
-    return sizes_.empty()
-               ? length
-               : std::max(length, sizes_.excess(doubles_.nearest(v), doubles_.nearest(w)));
   }
 
   // What is left may be beside an edge of the surface that the mesh before did not have, or one
@@ -573,7 +567,7 @@ class Improvement {
   const WorstAngles goal_;
   const bool halves_;  // edges that were too long
   const double longest_;
-  const EdgeSizes sizes_;
+  const EdgeSizes sizes_, bound_;    // the field alone, and with --max-edge
   double halves_expected_ = 0;       // tetrahedra
   std::vector<Index> excused_from_;  // on edges that came back or were too long
   std::vector<WorstAngles> worst_;   // per point, of the tetrahedra there before

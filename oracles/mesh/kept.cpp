@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -30,34 +29,19 @@ std::vector<Position> used(const std::vector<Corners>& triangles) {
   return places;
 }
 
-class EdgeBound {
- public:
-  explicit EdgeBound(const Promise& promise)
-      : most_(promise.max_edge * EdgeSizes::kMost),
-        sizes_(promise.size_field, promise.size_growth) {}
-
-  // Is an edge of the triangle too long?
-  bool excludes(const Corners& at) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Position &a = at[k], &b = at[(k + 1) % 3];
-      const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-      if (most_ > 0 && length > most_) return true;
-      if (!sizes_.empty() && sizes_.excess(a, b) > EdgeSizes::kMost) return true;
-    }
-    return false;
+bool has_longer_edge(const Corners& at, const EdgeSizes& bound) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (bound.excess(at[k], at[(k + 1) % 3]) > EdgeSizes::kMost) return true;
   }
-
- private:
-  double most_;  // 0: any
-  EdgeSizes sizes_;
-};
+  return false;
+}
 
 }  // namespace
 
 OracleReport check_kept(const Polyhedron& input, const MeshFile& mesh, std::span<const Face> faces,
                         Index first, const Promise& promise) {
   OracleReport report("kept", "triangles");
-  const EdgeBound bound(promise);
+  const EdgeSizes bound(promise.size_field, promise.size_growth, promise.max_edge);
   std::uint64_t split = 0, too_long = 0;
   report.checked = input.triangles.size();
   std::vector<Corners> given, made;
@@ -71,7 +55,7 @@ OracleReport check_kept(const Polyhedron& input, const MeshFile& mesh, std::span
     const auto [begin, end] = std::equal_range(made.begin(), made.end(), given[t]);
     const auto free = std::find(taken.begin() + (begin - made.begin()),
                                 taken.begin() + (end - made.begin()), std::uint8_t{0});
-    const bool is_long = promise.halves && bound.excludes(given[t]);
+    const bool is_long = promise.halves && has_longer_edge(given[t], bound);
     too_long += is_long ? 1 : 0;
     if (free != taken.begin() + (end - made.begin())) {
       *free = 1;

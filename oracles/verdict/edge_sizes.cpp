@@ -143,7 +143,8 @@ std::string read_view(const std::string& text, std::vector<SizeSource>& sources)
 
 }  // namespace
 
-EdgeSizes::EdgeSizes(std::vector<SizeSource> sources, double growth) : growth_(growth) {
+EdgeSizes::EdgeSizes(std::vector<SizeSource> sources, double growth, double longest)
+    : growth_(growth), longest_(longest) {
   if (!sources.empty()) divide(std::move(sources));
 }
 
@@ -177,7 +178,7 @@ void EdgeSizes::divide(std::vector<SizeSource> sources) {
 
 double EdgeSizes::excess(const Position& a, const Position& b) const {
   constexpr double kSlack = 1 - 1e-9;  // of the bound of a block
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = longest_ > 0 ? longest_ : std::numeric_limits<double>::infinity();
   for (const Block& block : blocks_) {
     double square = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -230,9 +231,7 @@ void excuse_long_edges(const char* option, bool recorded, OracleReport& lengths,
                 lengths.figure(kTooLong).value_or(0), lengths.figure(kLargestEdge).value_or(0));
   unproven.emplace_back(text);
   if (recorded) {
-    lengths.promised = false;
-    lengths.violations = 0;
-    lengths.findings.clear();
+    lengths.only_count();
   } else {
     lengths.undecided = true;
     lengths.notes.emplace_back(

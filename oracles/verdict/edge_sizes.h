@@ -16,9 +16,10 @@ class EdgeSizes {
   // An edge that exceeds its size by more than this is too long: both are computed in doubles.
   static constexpr double kMost = 1 + 1e-9;
 
-  EdgeSizes(std::vector<delmesher::SizeSource> sources, double growth);
+  // `longest`: the same everywhere; 0: any.
+  EdgeSizes(std::vector<delmesher::SizeSource> sources, double growth, double longest = 0);
 
-  bool empty() const { return blocks_.empty(); }
+  bool empty() const { return longest_ == 0 && blocks_.empty(); }
   // The edge's length over the smallest size at any of its points. Above 1 it is too long.
   double excess(const Position& a, const Position& b) const;
 
@@ -31,7 +32,7 @@ class EdgeSizes {
 
   void divide(std::vector<delmesher::SizeSource> sources);
 
-  double growth_;
+  double growth_, longest_;
   std::vector<Block> blocks_;
 };
 
@@ -46,8 +47,9 @@ std::string read_points(const std::string& path, std::vector<Position>& points);
 inline constexpr char kTooLong[] = "edges too long", kLargestEdge[] = "largest over its size";
 
 // Names the promise in `unproven` if the report counts edges that are too long, as some are where
-// something that the refinement left out came back. Without a record that is undecided, with one it
-// is not a violation: there the refined mesh, and what followed, are decided.
+// something that the refinement left out came back and could not be halved. Without a record that
+// is undecided, with one it is not a violation: there the refined mesh, and what followed, are
+// decided.
 void excuse_long_edges(const char* option, bool recorded, OracleReport& lengths,
                        std::vector<std::string>& unproven);
 
