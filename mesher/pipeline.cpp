@@ -158,7 +158,7 @@ chamfer::FilteredSurface filtered_surface(double tau, const chamfer::ChamferOpti
 }
 
 refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double tau,
-                                 Fallback& fallback, Session& s) {
+                                 const Fallback& fallback, Session& s) {
   refine::add_outer_box(s.surface.topology(), s.points, chamfered.chamfer.plc, s.frame);
   refine::RefineOptions options;
   options.delta = s.options.delta;
@@ -247,20 +247,9 @@ struct Guarded {
 };
 
 constexpr Step<Guarded> kGuard[] = {
-    {Rung::empty_balls, [](const Guarded& g) { return !g.r.fallback.gabriel(); },
+    {Rung::chamfers_everywhere, [](const Guarded&) { return true; },
      [](Guarded& g) {
-       g.r.fallback.empty_balls();
-       g.r.refine_anew();
-     }},
-    {Rung::chamfers_nearby, [](const Guarded& g) { return g.r.fallback.can_tighten_nearby(); },
-     [](Guarded& g) {
-       g.r.fallback.tighten_nearby(*g.r.refined.runaway, g.r.s);
-       g.r.refine_anew();
-     }},
-    {Rung::chamfers_everywhere,
-     [](const Guarded& g) { return !g.r.fallback.is_tight_everywhere(); },
-     [](Guarded& g) {
-       g.r.fallback.tighten_everywhere();
+       g.r.fallback.tighten();
        g.r.refine_anew();
      }},
 };

@@ -22,8 +22,9 @@ std::string endless(const ExactRecord& record) {
   if (!std::isfinite(p.tolerance)) return "the tolerance";
   if (!std::isfinite(p.planar)) return "the bound of planar facets";
   for (const ExactRecord::Corner& corner : record.corners) {
-    if (std::isfinite(corner.threshold) && std::isfinite(corner.distance)) continue;
-    return "the threshold or distance of corner " + std::to_string(corner.vertex);
+    if (!std::isfinite(corner.distance)) {
+      return "the distance of corner " + std::to_string(corner.vertex);
+    }
   }
   return {};
 }

@@ -131,7 +131,7 @@ delmesher::ExactRecord naive_chamfer(const Surface& surface, double share) {
         {delmesher::ExactPoint::Kind::on_segment, corner, 3, 0, share / length, 0, 0});
     r.chamfer_points.push_back({4 + corner, 3});
   }
-  r.corners = {{3, 90, share}};
+  r.corners = {{3, share}};
   r.facets = {{0, 0, false, {0}}, {1, 0, false, {1}}, {2, 0, false, {2}}, {3, 0, false, {3}}};
   const std::array<std::array<std::uint32_t, 2>, 3> bases = {{{0, 1}, {1, 2}, {2, 0}}};
   for (std::uint32_t f = 0; f < 3; ++f) {

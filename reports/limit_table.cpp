@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Struck {
-  std::uint64_t runs = 0, corners = 0, everywhere = 0, capped = 0, restarts = 0, thinned = 0;
+  std::uint64_t runs = 0, tightened = 0, capped = 0, restarts = 0, thinned = 0;
 };
 
 std::uint64_t count(const Json& from, const char* name) {
@@ -24,8 +24,7 @@ void add(const Json& stats, Struck& struck) {
   const auto& limits = stats["limits"];
   const auto& guarantee = stats["guarantee"];
   ++struck.runs;
-  struck.corners += count(guarantee, "fallback_corners");
-  struck.everywhere += guarantee.value("acute", 0.0) > stats["parameters"].value("acute", 90.0);
+  struck.tightened += guarantee.value("acute", 0.0) > stats["parameters"].value("acute", 90.0);
   struck.capped += limits.value("refinement_capped", false);
   struck.restarts += count(limits, "cdt_restarts");
   struck.thinned += count(limits, "thinned");
@@ -58,23 +57,21 @@ Table limit_table(const Selection& selection) {
   Table table;
   table.name = "limits";
   table.title = "Limits that the mesher set itself";
-  table.header = {"Mesher", "Runs",         "Corners tightened", "All tightened",
-                  "Capped", "CDT restarts", "Points thinned"};
+  table.header = {"Mesher", "Runs", "Tightened", "Capped", "CDT restarts", "Points thinned"};
   for (const std::string& mesher : selection.meshers) {
     Struck s;
     for (const RunRow* row : selection.ok_runs(mesher)) add(stats_of(*row), s);
     if (s.runs == 0) continue;
     table.rows.push_back({mesher});
-    for (const std::uint64_t n :
-         {s.runs, s.corners, s.everywhere, s.capped, s.restarts, s.thinned}) {
+    for (const std::uint64_t n : {s.runs, s.tightened, s.capped, s.restarts, s.thinned}) {
       table.rows.back().push_back(std::to_string(n));
     }
   }
   table.notes = {
-      "Of the successful runs, by the mesher's own statistics. Corners are tightened where the "
-      "refinement would not end; \"capped\" are runs that gave up slivers, or angles above the "
-      "guaranteed ones, at four times the points; points are thinned where doubles are too coarse "
-      "for them."};
+      "Of the successful runs, by the mesher's own statistics. \"Tightened\" are runs with "
+      "chamfers up to 90 degrees, because the refinement would not end; \"capped\" are runs that "
+      "gave up slivers, or angles above the guaranteed ones, at four times the points; points are "
+      "thinned where doubles are too coarse for them."};
   return table;
 }
 

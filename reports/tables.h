@@ -50,7 +50,7 @@ Table vary_changes_table(const Selection& selection);
 // paper's preset (tetproof run --ablation). No rows without the default or without such departures.
 Table deviation_table(const Selection& selection);
 
-// How often the limits that our mesher sets itself struck: corners tightened by the guard, the cap
+// How often the limits that our mesher sets itself struck: chamfers up to 90 degrees, the cap
 // on slivers, restarts of the constrained tetrahedrization, points taken out again. No rows without
 // statistics of them.
 Table limit_table(const Selection& selection);

@@ -309,25 +309,24 @@ TEST(Tables, LimitsThatStruckAreCounted) {
   Selection selection = campaign();
   EXPECT_FALSE(has_data(limit_table(selection)));
   EXPECT_FALSE(has_data(ladder_table(selection)));
-  const auto stats = [](int stops, int corners, double acute, const char* capped) {
+  const auto stats = [](int stops, double acute, const char* capped) {
     return R"({"parameters": {"acute": 60}, "guarantee": {"acute": )" + std::to_string(acute) +
-           R"(, "fallback_corners": )" + std::to_string(corners) +
-           R"(}, "ladder": {"empty_balls": )" + std::to_string(stops > 0 ? 1 : 0) +
-           R"(, "chamfers_nearby": )" + std::to_string(stops) +
+           R"(}, "ladder": {"larger_tau": )" + std::to_string(stops > 0 ? 1 : 0) +
+           R"(, "other_orders": )" + std::to_string(stops) +
            R"(, "untangle": 0}, "limits": {"refinement_capped": )" + capped +
            R"(, "cdt_restarts": 2, "thinned": 5}})";
   };
   auto& runs = selection.runs.at("safe-delmesher-e4");
-  runs.at("hash-a").stats_json = stats(3, 7, 60, "false");
-  runs.at("hash-b").stats_json = stats(33, 0, 90, "true");
-  runs.at("hash-c").stats_json = stats(0, 0, 60, "false");
+  runs.at("hash-a").stats_json = stats(3, 60, "false");
+  runs.at("hash-b").stats_json = stats(33, 90, "true");
+  runs.at("hash-c").stats_json = stats(0, 60, "false");
   const Table table = limit_table(selection);
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0],
-            (std::vector<std::string>{"safe-delmesher-e4", "3", "7", "1", "1", "6", "15"}));
+            (std::vector<std::string>{"safe-delmesher-e4", "3", "1", "1", "6", "15"}));
   const std::vector<std::vector<std::string>> taken = {
-      {"safe-delmesher-e4", "3", "empty_balls", "2", "2"},
-      {"safe-delmesher-e4", "3", "chamfers_nearby", "2", "36"}};
+      {"safe-delmesher-e4", "3", "larger_tau", "2", "2"},
+      {"safe-delmesher-e4", "3", "other_orders", "2", "36"}};
   EXPECT_EQ(ladder_table(selection).rows, taken);
 }
 

@@ -25,7 +25,7 @@ class AcuteFinder {
     const auto [c, d] = topology_.edge_vertices(e);
     return predicates_.dihedral_below(topology_.to(SurfaceTopology::next(h)),
                                       topology_.to(SurfaceTopology::next(g)), c, d,
-                                      thresholds_.at_edge(topology_, e));
+                                      thresholds_.with_facets);
   }
 
   bool vertex_is_acute(VertexId v, const std::vector<std::uint8_t>& edge_is_acute) {
@@ -45,13 +45,13 @@ class AcuteFinder {
   // even at a vertex of many edges, unless that threshold is small: with --corner 0 it asks all
   // pairs.
   bool two_edges_are_acute(VertexId v, const std::vector<std::uint32_t>& spokes) {
-    const double limit = thresholds_.at_vertex(v);
+    const double limit = thresholds_.with_facets;
     for (std::size_t i = 1; i < spokes.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const VertexId p = topology_.to(spokes[i]);
         const VertexId q = topology_.to(spokes[j]);
         if (!predicates_.angle_below(p, v, q, limit)) continue;
-        if (predicates_.angle_below(p, v, q, thresholds_.at_corner(v))) return true;
+        if (predicates_.angle_below(p, v, q, thresholds_.of_edges)) return true;
         apex_ = true;
       }
     }
@@ -76,7 +76,7 @@ class AcuteFinder {
   }
 
   bool acute_with_fan(VertexId v, VertexId q, const std::vector<std::uint32_t>& fan) {
-    const double limit = thresholds_.at_vertex(v);
+    const double limit = thresholds_.with_facets;
     for (std::uint32_t h : fan) {
       const std::uint32_t last = SurfaceTopology::previous(h);
       const VertexId b = topology_.to(h), c = topology_.from(last);

@@ -10,32 +10,19 @@
 
 namespace delmesher::chamfer {
 
-// The threshold in force at every vertex, as a squared cosine: the smaller, the stricter. An edge
-// obeys the stricter of its ends.
-class Thresholds {
- public:
-  explicit Thresholds(const ChamferOptions& options) : options_(options) {}
-  double at_vertex(VertexId v) const {
-    return options_.vertex_cosine_squared.empty() ? options_.cosine_squared
-                                                  : options_.vertex_cosine_squared[v];
-  }
-  // For two edges, of one facet or not.
-  double at_corner(VertexId v) const {
-    const bool tightened = !options_.vertex_cosine_squared.empty() && at_vertex(v) == 0;
-    return tightened ? 0 : std::max(at_vertex(v), options_.corner_cosine_squared);
-  }
-  double at_edge(const SurfaceTopology& topology, std::uint32_t e) const {
-    const auto [v, w] = topology.edge_vertices(e);
-    return at_vertex(v) < at_vertex(w) ? at_vertex(v) : at_vertex(w);
-  }
+// The thresholds in force, as squared cosines: the smaller, the stricter.
+struct Thresholds {
+  explicit Thresholds(const ChamferOptions& options)
+      : with_facets(options.cosine_squared),
+        of_edges(std::max(with_facets, options.corner_cosine_squared)) {}
 
- private:
-  const ChamferOptions& options_;
+  double with_facets;  // of an edge and a facet, of two facets
+  double of_edges;     // of two edges, of one facet or not
 };
 
 struct Acuteness {
   std::vector<std::uint8_t> vertex, edge;  // 1: acute; per input vertex, per undirected input edge
-  // Per input vertex: acute by at_vertex(), but not by at_corner() and therefore not in `vertex`.
+  // Per input vertex: below `with_facets`, but not below `of_edges` and therefore not in `vertex`.
   std::vector<std::uint8_t> apex;
 };
 

@@ -134,7 +134,7 @@ class BridgeBuilder {
     // Where the threshold is a right angle, rounding must not leave less: lean towards the vertex
     // by more than the points' accuracy.
     constexpr double kLean = 0x1p-18;
-    const bool lean = thresholds_.at_edge(topology_, topology_.edge_of[h]) < kLean;
+    const bool lean = thresholds_.with_facets < kLean;
     return (along - (lean ? kLean * step : 0)) * direction + step * inward;
   }
 

@@ -94,9 +94,6 @@ ChamferResult chamfer_surface(const KeptSurface& surface, const Acuteness& acute
 
 ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                       const ChamferOptions& options, Control& control) {
-  DELMESHER_CHECK(options.vertex_cosine_squared.empty() ||
-                      options.vertex_cosine_squared.size() == topology.vertex_half_edge.size(),
-                  "there are not as many thresholds as vertices");
   const KeptSurface surface(topology, points, options.facet_kept);
   const Acuteness acute = find_acute(surface, predicates, Thresholds(options), {}, control);
   return chamfer_surface(surface, acute, points, predicates, options, {}, control);

@@ -17,9 +17,6 @@ struct ChamferOptions {
   // The same for the angle of two edges; 0: as above. Segments that are split at equal distances
   // from their common end do not encroach each other, however acute their angle.
   double corner_cosine_squared = 0;
-  // Per input vertex, overriding cosine_squared; empty: none. The runaway guard sets 0 (90 degrees)
-  // here.
-  std::vector<double> vertex_cosine_squared;
   double max_radius = 0;  // nothing farther from its vertex or edge is cut off; 0: no bound
   bool simplify_bridges = true;
   // The paper's way, where the default differs. link_distances: reach a third of the way to the
@@ -39,8 +36,8 @@ struct ChamferResult {
   std::vector<std::uint32_t> plc_facet;       // input facet -> index in plc.facets, or kNone
   std::vector<std::uint8_t> vertex_is_acute;  // per input vertex
   std::vector<std::uint8_t> edge_is_acute;    // per undirected input edge
-  // Per input vertex: 1 for an apex, where two edges meet below the threshold of the vertex, but
-  // not below that of two edges; so it is not chamfered.
+  // Per input vertex: 1 for an apex, where two edges meet below the threshold, but not below that
+  // of two edges; so it is not chamfered.
   std::vector<std::uint8_t> vertex_is_apex;
   std::vector<double> vertex_distance;  // chamfer distance along the edges; 0: not chamfered
   // Balls around vertices and cylinders around edges that together contain everything cut off.

@@ -294,20 +294,6 @@ TEST(Chamfer, ADroppedFacetMakesNoEdgeAcute) {
   EXPECT_EQ(measure(result.plc, model.points).defect, "");
 }
 
-TEST(Chamfer, AVertexMayHaveItsOwnThreshold) {
-  // A prism over a triangle with angles of 45, 45 and 90 degrees, all edges at 90 else.
-  const Surface surface = test_polyhedra::prism({{0, 0}, {1000, 0}, {0, 1000}}, 700);
-  Model model(surface);
-  ChamferOptions options = below(40);
-  EXPECT_EQ(model.run(options).acute_vertices, 0U);
-  options.vertex_cosine_squared.assign(6, options.cosine_squared);
-  options.vertex_cosine_squared[1] = 0;
-  const ChamferResult result = model.run(options);
-  // The vertical edge at vertex 1 is acute by the stricter threshold, and so its other end.
-  EXPECT_EQ(result.acute_edges, 1U);
-  EXPECT_EQ(result.vertex_is_acute, (std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0}));
-}
-
 TEST(Chamfer, FlatVerticesAreIsolatedUnlessNearAChamfer) {
   // A tetrahedron whose bottom is a fan around an inner vertex, once central, once at a corner.
   for (bool central : {true, false}) {

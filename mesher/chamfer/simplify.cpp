@@ -95,11 +95,11 @@ class Simplifier {
     const bool is_end = forward ? at == 0 : at + 1 == chain.size();
     if (!is_end) {
       return !predicates_.angle_below(chain[forward ? at - 1 : at + 1], x, y,
-                                      thresholds_.at_vertex(corner.vertex));
+                                      thresholds_.with_facets);
     }
     const std::uint32_t away = forward ? corner.outgoing : topology_.opposite[corner.incoming];
     const std::uint32_t e = topology_.edge_of[away];
-    const double limit = thresholds_.at_edge(topology_, e);
+    const double limit = thresholds_.with_facets;
     if (acute_.edge[e]) {
       const VertexId strip_end =
           forward ? bridges_.chain[corner.next].back() : bridges_.chain[corner.previous].front();

@@ -252,10 +252,8 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
-  json["guarantee"] = {{"acute", s.guaranteed_acute},
-                       {"corner", s.guaranteed_corner},
-                       {"gabriel", s.gabriel},
-                       {"fallback_corners", s.fallback_corners}};
+  json["guarantee"] = {
+      {"acute", s.guaranteed_acute}, {"corner", s.guaranteed_corner}, {"gabriel", s.gabriel}};
   for (std::size_t i = 0; i < kRungCount; ++i) {
     json["ladder"][kLadder[i].name] = s.ladder.times[i];
   }
@@ -375,13 +373,9 @@ std::string regions_text(const std::string& file, const std::vector<MeshRegion>&
 
 std::vector<std::string> limits_texts(const Statistics& s) {
   std::vector<std::string> texts;
-  const std::uint64_t guard_stops = s.ladder[Rung::empty_balls] + s.ladder[Rung::chamfers_nearby] +
-                                    s.ladder[Rung::chamfers_everywhere];
-  if (guard_stops > 0) {
-    const std::string corners =
-        s.guaranteed_acute >= 90 ? "all corners" : std::to_string(s.fallback_corners) + " corners";
-    texts.push_back("the refinement would not end: begun anew " + std::to_string(guard_stops) +
-                    " times, at last with empty balls and chamfers up to 90 degrees at " + corners);
+  if (s.ladder[Rung::chamfers_everywhere] > 0) {
+    texts.push_back(
+        "the refinement would not end: begun anew with empty balls and chamfers up to 90 degrees");
   }
   if (s.planar_given_up || s.ladder[Rung::tetrahedrize_again] > 0) {
     const std::string why = s.diagonals_missing == 0

@@ -72,8 +72,7 @@ struct ExactRecord {
   std::vector<Chain> segments;
   struct Corner {  // a chamfered input vertex
     std::uint32_t vertex;
-    double threshold;  // degrees: Parameters::acute, or 90 where the guard fell back
-    double distance;   // chamfer distance along its edges, rounded to nearest
+    double distance;  // chamfer distance along its edges, rounded to nearest
   };
   std::vector<Corner> corners;
   // Points made by chamfering, each with the input vertex that it was made for.

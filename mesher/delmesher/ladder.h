@@ -13,8 +13,6 @@ enum class Rung : std::uint8_t {
   // Filter and chamfering: the prediction keeps to the budget, or to what automatic allows.
   larger_tau,
   // Refinement: it ends.
-  empty_balls,
-  chamfers_nearby,
   chamfers_everywhere,
   // With --planar 0: the mesh goes back to the surface as given. A kept surface: the edges between
   // its coplanar triangles come back.
@@ -30,7 +28,7 @@ enum class Rung : std::uint8_t {
   back_to_given,
   no_planes
 };
-inline constexpr std::size_t kRungCount = 12;
+inline constexpr std::size_t kRungCount = 10;
 
 // Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
 struct RungRow {
@@ -46,12 +44,8 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
     {"larger_tau", 14, "tau is below 0.05, or below that asked for with --surface auto",
      "twice the tau, or that asked for: the filter drops more", "the surface",
      "filter, chamfering"},
-    {"empty_balls", 1, "they are not asked for", "empty diametral balls", "tau",
+    {"chamfers_everywhere", 1, "", "chamfers up to 90 degrees, empty diametral balls", "tau",
      "filter, chamfering, refinement"},
-    {"chamfers_nearby", 32, "they are not everywhere",
-     "chamfers up to 90 degrees at corners nearby", "tau", "filter, chamfering, refinement"},
-    {"chamfers_everywhere", 1, "they are not everywhere",
-     "chamfers up to 90 degrees at all corners", "tau", "filter, chamfering, refinement"},
     {"tetrahedrize_again", 1, "no bound on edges, or a kept surface", "the surface as given",
      "points on its edges and in the volume", "a constrained tetrahedrization"},
     {"other_orders", 3, "few defects are left", "repairs in another order", "the mesh",

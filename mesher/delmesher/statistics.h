@@ -64,11 +64,10 @@ struct Statistics {
   double tau = 0;                   // in force: Options::tau, or more for the budget
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;
   std::uint64_t acute_vertices = 0, acute_edges = 0;
-  double guaranteed_acute = 0;         // threshold in force away from the fallback corners
-  double guaranteed_corner = 0;        // the same for the angle of two edges
-  bool gabriel = false;                // the constraints of the refined mesh have empty balls
-  std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
-  RungCounts ladder;                   // in all runs
+  double guaranteed_acute = 0;   // threshold in force
+  double guaranteed_corner = 0;  // the same for the angle of two edges
+  bool gabriel = false;          // the constraints of the refined mesh have empty balls
+  RungCounts ladder;             // in all runs
   // Limits that the mesher set itself: whether the treatment of slivers, or of angles above the
   // guaranteed bound, was ended by its cap on insertions; and how often the constrained
   // tetrahedrization began anew.

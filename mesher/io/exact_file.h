@@ -9,7 +9,7 @@
 
 namespace delmesher::io {
 
-inline constexpr int kExactVersion = 6;
+inline constexpr int kExactVersion = 7;
 
 WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record);
 

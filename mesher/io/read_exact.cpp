@@ -72,7 +72,7 @@ class ExactReader {
   void read_point();
   void read_facet();
   void read_segment();
-  void read_corner();
+  void read_corner(std::uint64_t version);
   void read_chamfer_point();
   void read_ball();
   void check_references();
@@ -201,10 +201,10 @@ void ExactReader::read_segment() {
   record_.segments.push_back(std::move(chain));
 }
 
-void ExactReader::read_corner() {
+void ExactReader::read_corner(std::uint64_t version) {
   ExactRecord::Corner corner{};
   corner.vertex = point();
-  corner.threshold = number();
+  if (version < 7) number();  // a threshold
   corner.distance = number();
   record_.corners.push_back(corner);
 }
@@ -265,7 +265,7 @@ ExactRecord ExactReader::read() {
   check_references();
   items("facets", [&] { read_facet(); });
   items("segments", [&] { read_segment(); });
-  items("corners", [&] { read_corner(); });
+  items("corners", [&] { read_corner(version); });
   tets("refined", record_.refined);
   triangles("refined_facets", record_.refined_facets);
   tets("final", record_.final);

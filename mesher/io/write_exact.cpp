@@ -128,8 +128,6 @@ void write_complex(TextSink& out, const ExactRecord& record) {
   out.section("corners", record.corners.size());
   for (const auto& corner : record.corners) {
     out.integers(corner.vertex);
-    out.hex(corner.threshold);
-    out.text(" ");
     out.hex(corner.distance);
     out.text("\n");
   }

@@ -145,9 +145,9 @@ RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore&
   Refiner refiner(plc, topology, points, predicates, options, control);
   try {
     refiner.run();
-  } catch (const Runaway& runaway) {
+  } catch (const Runaway&) {
     RefineResult stopped;
-    stopped.runaway = runaway.place;
+    stopped.runaway = true;
     return stopped;
   }
   return refiner.result();

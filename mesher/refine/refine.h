@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "mesher/base/control.h"
@@ -68,8 +67,7 @@ struct RefinedFace {
 };
 
 struct RefineResult {
-  // The place where the guard stopped the refinement; everything else is then empty.
-  std::optional<Vec3> runaway;
+  bool runaway = false;  // the guard stopped the refinement; everything else is then empty
   std::vector<std::array<VertexId, 4>> tetrahedra;  // all of them down to the outer box
   std::vector<Side> side;                           // per tetrahedron
   // Per tetrahedron, a bit for each face: bits 0 to 3 if a tetrahedron before it has that face too,

@@ -57,8 +57,8 @@ SteinerPoints::SteinerPoints(const Plc& plc, const SegmentFacets& segment_facets
       runaway_length_(options.runaway_length),
       circumcentres_(options.circumcentres) {}
 
-void SteinerPoints::guard(double squared_length, const Vec3& place) const {
-  if (squared_length < runaway_length_ * runaway_length_) throw Runaway{place};
+void SteinerPoints::guard(double squared_length) const {
+  if (squared_length < runaway_length_ * runaway_length_) throw Runaway{};
 }
 
 SteinerPoints::Place SteinerPoints::beside(VertexId origin, const Vec3& offset) const {
@@ -74,7 +74,7 @@ SteinerPoints::Place SteinerPoints::beside(VertexId origin, const Vec3& offset) 
 VertexId SteinerPoints::on_segment(std::uint32_t segment, VertexId a, VertexId b) {
   const PlcSegment& whole = plc_.segments[segment];
   const Vec3 d = points_.difference(a, b);
-  guard(dot(d, d), points_.nearest(a));
+  guard(dot(d, d));
   const double length = norm(d);
   const Vec3 offset = scaled(d, shells_.split_fraction(a, b, length));
   if (whole.input_edge != kNone) {
@@ -143,7 +143,7 @@ VolumeTargets SteinerPoints::in_tetrahedron(const VertexId* v, const Goal& goal)
   const Vec3 origin = points_.nearest(v[0]);
   TetrahedronShape s = shape_of(points_, v);
   add_circumsphere(s);
-  guard(s.shortest2(), origin);
+  guard(s.shortest2());
   VolumeTargets targets;
   targets.grid = std::sqrt(s.shortest2()) * kGridFraction;
   const auto add = [&](const Vec3& x) {

@@ -22,9 +22,7 @@
 namespace delmesher::refine {
 
 // Thrown by the guard against endless refinement; caught by refine().
-struct Runaway {
-  Vec3 place;
-};
+struct Runaway {};
 
 // Places inside the circumball of a tetrahedron, as far as doubles can tell: best first.
 struct VolumeTargets {
@@ -62,9 +60,8 @@ class SteinerPoints {
   // On the line of the two vertices, strictly between a and b.
   VertexId on_line(const std::array<VertexId, 2>& line, VertexId a, VertexId b, const Vec3& offset,
                    double length);
-  // Throws Runaway if an edge of that squared length at that place means that the refinement does
-  // not end.
-  void guard(double squared_length, const Vec3& place) const;
+  // Throws Runaway if an edge of that squared length means that the refinement does not end.
+  void guard(double squared_length) const;
 
   const Plc& plc_;
   const SegmentFacets& segment_facets_;

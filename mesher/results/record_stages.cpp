@@ -58,12 +58,10 @@ void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult*
   }
 }
 
-void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& force,
-                    ExactRecord& record) {
+void record_chamfer(const chamfer::ChamferResult& chamfered, ExactRecord& record) {
   for (VertexId v = 0; v < chamfered.vertex_is_acute.size(); ++v) {
     if (chamfered.vertex_is_acute[v] == 0) continue;
-    record.corners.push_back(
-        {v, force.tightened(v) ? 90 : force.acute, chamfered.vertex_distance[v]});
+    record.corners.push_back({v, chamfered.vertex_distance[v]});
   }
   for (std::uint32_t n = 0; n < chamfered.new_point_vertex.size(); ++n) {
     record.chamfer_points.push_back({chamfered.first_new_point + n, chamfered.new_point_vertex[n]});

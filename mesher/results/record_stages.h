@@ -17,8 +17,7 @@ void record_parameters(const Options& options, const InForce& force, double diag
 // `filter` is null if nothing was filtered.
 void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,
                    ExactRecord& record);
-void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& force,
-                    ExactRecord& record);
+void record_chamfer(const chamfer::ChamferResult& chamfered, ExactRecord& record);
 void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const ConformingMesh& mesh, const SurfaceTopology& topology, ExactRecord& record);

@@ -71,15 +71,12 @@ void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
   s.guaranteed_acute = force.acute;
   s.guaranteed_corner = force.corner;
   s.gabriel = force.gabriel;
-  const std::vector<double>& tightened = *force.vertex_cosine_squared;
-  s.fallback_corners =
-      static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
   if (!exact()) return;
   ExactRecord& record = result_.exact;
   record_parameters(session_.options, force, session_.diagonal, result_.statistics.planar_bound,
                     record);
   record_facets(session_.surface.topology(), &filter, record);
-  record_chamfer(chamfered, force, record);
+  record_chamfer(chamfered, record);
 }
 
 void Recorder::refined(const chamfer::ChamferResult& chamfered,

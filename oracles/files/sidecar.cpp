@@ -19,7 +19,7 @@ class SidecarReader {
 
   ExactRecord read() {
     reader_.expect("delmesher-exact");
-    version_ = reader_.index(0, 7);
+    version_ = reader_.index(0, 8);
     if (version_ == 0) reader_.fail("unknown version 0");
     if (version_ >= 2) read_parameters();
     if (version_ >= 6) read_origin();
@@ -41,7 +41,7 @@ class SidecarReader {
     });
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = point();
-      corner.threshold = reader_.exact_number();
+      if (version_ < 7) reader_.exact_number();  // a threshold
       corner.distance = reader_.exact_number();
     });
     read_tets("refined", record_.refined);

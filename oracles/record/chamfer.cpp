@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "oracles/base/buckets.h"
 #include "oracles/mesh/angles.h"
@@ -50,12 +51,10 @@ class ChamferedSurface {
         points_(*mesh.points),
         surface_(*mesh.surface),
         facets_(surface_, record_),
-        default_(record_.parameters.acute),
-        of_edges_(record_.parameters.corner) {
-    for (const auto& corner : record_.corners) {
-      corner_.insert_or_assign(corner.vertex, Threshold(corner.threshold));
-    }
-    for (const auto& [point, vertex] : record_.chamfer_points) made_for_[point] = vertex;
+        with_facets_(record_.parameters.acute),
+        of_edges_(thresholds_of(record_.parameters).of_edges) {
+    for (const auto& corner : record_.corners) corner_.insert(corner.vertex);
+    for (const auto& made : record_.chamfer_points) made_for_.insert(made[0]);
     collect_segments();
   }
 
@@ -65,27 +64,11 @@ class ChamferedSurface {
   std::span<const Index> at(std::size_t slot) const { return at_.of(static_cast<Index>(slot)); }
   std::vector<Sector> sectors(std::size_t slot) const;
 
-  const Threshold& at_input_vertex(Index v) const {
-    const auto corner = corner_.find(v);
-    return corner != corner_.end() ? corner->second : default_;
-  }
-  const Threshold& at_vertex(Index p) const {
-    const auto made = made_for_.find(p);
-    return at_input_vertex(made != made_for_.end() ? made->second : p);
-  }
+  const Threshold& with_facets() const { return with_facets_; }
   // For the angle of two edges.
   const Threshold& of_edges(Index p) const {
     const bool chamfered = made_for_.contains(p) || corner_.contains(p);
-    if (chamfered || of_edges_.degrees() == 0 || of_edges_.degrees() > default_.degrees()) {
-      return at_vertex(p);
-    }
-    return of_edges_;
-  }
-  // The stricter of the ends of the input edge.
-  const Threshold& at_edge(Index e) const {
-    const Threshold &a = at_input_vertex(surface_.edges()[e].from),
-                    &b = at_input_vertex(surface_.edges()[e].to);
-    return a.degrees() > b.degrees() ? a : b;
+    return chamfered ? with_facets_ : of_edges_;
   }
 
  private:
@@ -97,9 +80,9 @@ class ChamferedSurface {
   const ExactPoints& points_;
   const InputSurface& surface_;
   const FacetIndex facets_;
-  Threshold default_, of_edges_;
-  std::unordered_map<Index, Threshold> corner_;
-  std::unordered_map<Index, Index> made_for_;
+  Threshold with_facets_, of_edges_;
+  std::unordered_set<Index> corner_;
+  std::unordered_set<Index> made_for_;
   std::vector<Segment> segments_;
   std::vector<Index> vertices_;  // ends of segments, ascending
   Buckets at_{0};
@@ -301,7 +284,7 @@ void ChamferAngles::check_dihedral(const Segment& s) {
   ++report_.checked;
   const InputSurface::Facet &left = surface_.facets()[s.left], &right = surface_.facets()[s.right];
   const IntervalVector &p = left.rough_normal, &q = right.rough_normal;
-  const Threshold& threshold = chamfered_.at_edge(s.input_edge);
+  const Threshold& threshold = chamfered_.with_facets();
   if (threshold.surely_not_above(-exact::dot(p, q), exact::dot(p, p) * exact::dot(q, q))) return;
   const ExactVector m = left.normal(points_), n = right.normal(points_);
   const ExactNumber cosine = -exact::dot(m, n);
@@ -316,7 +299,7 @@ void ChamferAngles::check_vertex(std::size_t slot) {
   const Index v = chamfered_.vertices()[slot];
   const std::span<const Index> at = chamfered_.at(slot);
   const std::vector<Sector> sectors = chamfered_.sectors(slot);
-  const Threshold& threshold = chamfered_.at_vertex(v);
+  const Threshold& threshold = chamfered_.with_facets();
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Segment& s = chamfered_.segments()[at[i]];
     for (std::size_t j = 0; j < i; ++j) {

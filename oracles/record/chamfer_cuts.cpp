@@ -32,17 +32,9 @@ class ChamferNeed {
         facets_(surface_, record_),
         acute_(*mesh.points, surface_),
         limit_(mesh.promise->chamfer_radius),
-        to_link_(mesh.promise->link || mesh.promise->bridges) {
+        to_link_(mesh.promise->link || mesh.promise->bridges),
+        thresholds_(thresholds_of(record_.parameters)) {
     for (const ExactRecord::Corner& corner : record_.corners) corner_[corner.vertex] = &corner;
-    const double acute = record_.parameters.acute, corner = record_.parameters.corner;
-    thresholds_.at = [this, acute](Index v) {
-      const auto found = corner_.find(v);
-      return found != corner_.end() ? found->second->threshold : acute;
-    };
-    thresholds_.of_edges = [this, acute, corner](Index v) {
-      const double here = thresholds_.at(v);
-      return here > acute || corner == 0 ? here : std::min(corner, here);
-    };
   }
 
   OracleReport run() {
@@ -128,7 +120,7 @@ class ChamferNeed {
   double limit_;
   bool to_link_;
   std::unordered_map<Index, const ExactRecord::Corner*> corner_;
-  CornerThresholds thresholds_;
+  const CornerThresholds thresholds_;
   double largest_share_ = 0;
   OracleReport report_{"chamfer-need", "input vertices"};
 };

@@ -254,6 +254,7 @@ class FilterCheck {
         features_(*mesh.points, surface_, facets_, corners_),
         exponent_(mesh.points->exponent()),
         diagonal_(mesh.diagonal),
+        thresholds_(thresholds_of(record_.parameters)),
         chamfers_(*mesh.points, surface_, corners_, thresholds_,
                   {.limit = mesh.promise->chamfer_radius,
                    .to_link = mesh.promise->link || mesh.promise->bridges,
@@ -261,23 +262,8 @@ class FilterCheck {
         promise_(*mesh.promise),
         pairs_(mesh.promise->filter_pairs),
         both_sides_(mesh.promise->filter_chamfered) {
-    const double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
-    double strictest = acute;
-    for (const ExactRecord::Corner& corner : record_.corners) {
-      known_[corner.vertex] = std::max(acute, corner.threshold);
-      strictest = std::max(strictest, corner.threshold);
-    }
-    guarded_ = strictest > promise_.acute || of_edges > promise_.corner_in_force();
-    // Only the remaining ones of the corners that the guard tightened are known, so the strictest
-    // threshold counts at all vertices that are not corners any more.
-    thresholds_.at = [this, strictest](Index v) {
-      const auto found = known_.find(v);
-      return found != known_.end() ? found->second : strictest;
-    };
-    thresholds_.of_edges = [this, acute, of_edges](Index v) {
-      const double here = thresholds_.at(v);
-      return here > acute ? here : of_edges;
-    };
+    const ExactRecord::Parameters& p = record_.parameters;
+    guarded_ = p.acute > promise_.acute || p.corner > promise_.corner_in_force();
   }
   FilterCheck(const FilterCheck&) = delete;
   FilterCheck& operator=(const FilterCheck&) = delete;
@@ -496,8 +482,7 @@ class FilterCheck {
   Features features_;
   long exponent_;
   double diagonal_;
-  std::unordered_map<Index, double> known_;  // thresholds of corners
-  CornerThresholds thresholds_;
+  const CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
   const Promise& promise_;
   bool pairs_, both_sides_;

@@ -55,6 +55,11 @@ AngleBound::AngleBound(double degrees, Doubt doubt)
     : bound_(squared_cosine(degrees, doubt)),
       rough_bound_(Interval::around(bound_.get_d(), bound_.get_d())) {}
 
+CornerThresholds thresholds_of(const delmesher::ExactRecord::Parameters& parameters) {
+  const double acute = parameters.acute, corner = parameters.corner;
+  return {acute, corner == 0 ? acute : std::min(acute, corner)};
+}
+
 int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index v, Index p,
               Index q) {
   if (const int sign = surely_left(points, facet.rough_normal, v, p, q); sign != 0) return sign;
@@ -105,7 +110,7 @@ bool AcuteCorners::edge_is_acute(Index e, const Present& present,
   const IntervalVector &r = rough_normal(edge.left), &s = rough_normal(edge.right);
   const Interval rough_cosine = -exact::dot(r, s);
   if (rough_cosine.sign() == -1) return false;  // most are: making a bound takes longer
-  const AngleBound bound(std::max(thresholds.at(edge.from), thresholds.at(edge.to)), doubt);
+  const AngleBound bound(thresholds.with_facets, doubt);
   if (bound.surely_not_above(rough_cosine, exact::dot(r, r) * exact::dot(s, s))) return false;
   const ExactVector m = surface_.facets()[edge.left].normal(points_),
                     n = surface_.facets()[edge.right].normal(points_);
@@ -125,7 +130,7 @@ std::string AcuteCorners::why_acute(Index v, const Present& present,
     }
     spokes.push_back(edge.from == v ? edge.to : edge.from);
   }
-  const AngleBound of_edges(thresholds.of_edges(v), doubt), of_facets(thresholds.at(v), doubt);
+  const AngleBound of_edges(thresholds.of_edges, doubt), of_facets(thresholds.with_facets, doubt);
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     const IntervalVector r = points_.rough_difference(v, spokes[i]);
     for (std::size_t j = 0; j < i; ++j) {

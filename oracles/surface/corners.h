@@ -47,9 +47,10 @@ class AngleBound {
 
 // The thresholds in force, in degrees.
 struct CornerThresholds {
-  std::function<double(Index vertex)> at;        // for an edge and a facet, and for two facets
-  std::function<double(Index vertex)> of_edges;  // for two edges
+  double with_facets;  // of an edge and a facet, of two facets
+  double of_edges;
 };
+CornerThresholds thresholds_of(const delmesher::ExactRecord::Parameters& parameters);
 
 // Sign of the turn from the direction v -> p to v -> q, projected onto the facet and seen from
 // outside: positive to the left.
@@ -73,7 +74,7 @@ class AcuteCorners {
     return present(edge.left) || present(edge.right);
   }
 
-  // Do two present facets meet at the edge below the stricter threshold of its ends?
+  // Do two present facets meet at the edge below the threshold?
   bool edge_is_acute(Index e, const Present& present, const CornerThresholds& thresholds,
                      Doubt doubt) const;
   // The reason why the vertex is acute; empty if it is not.

@@ -135,6 +135,6 @@ OracleReport check_written(const Promise& promise, std::size_t vertices, double 
 inline constexpr char kOtherNames[] = "--names";
 
 // The version of the sidecar that has all sections the oracles ask for.
-inline constexpr unsigned kRecordVersion = 6;
+inline constexpr unsigned kRecordVersion = 7;
 
 }  // namespace tetproof::oracles

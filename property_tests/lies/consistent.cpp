@@ -299,10 +299,7 @@ const Lie kConsistent[] = {
     {"a run without empty balls", "refined-encroachment",
      [](Told& t) { claim_for(t, [](Options& o) { o.gabriel = false; }); }},
     {"a run with corners below 90 degrees chamfered", "refined-chamfer-need",
-     [](Told& t) {
-       claim_for(t, [](Options& o) { o.acute = o.corner = 90; });
-       for (auto& corner : t.record.corners) corner.threshold = 60;
-     }},
+     [](Told& t) { claim_for(t, [](Options& o) { o.acute = o.corner = 90; }); }},
     {"a run with a finer filter", "refined-filter",
      [](Told& t) {
        t.record.parameters.tolerance *= 0.1 / t.promise.tau;

@@ -51,15 +51,6 @@ void run_without_sides(Told& t) {
   EXPECT_GT(std::ranges::count(t.record.facets, 2, &ExactRecord::Facet::filtered), 0);
 }
 
-// Only other corners are said to have been tightened to a right angle.
-void tell_other_corners_tightened(Told& t) {
-  run_without_sides(t);
-  t.promise.acute = t.record.parameters.acute = 60;
-  for (auto& corner : t.record.corners) {
-    if (corner.vertex == 0 || corner.vertex == 4) corner.threshold = 60;
-  }
-}
-
 const Lie kRelaxed[] = {
     {"delta relaxed to nothing", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-20; }},
     {"threshold of corners relaxed", "promise", [](Told& t) { t.record.parameters.acute = 1; }},
@@ -101,15 +92,13 @@ const Lie kRelaxed[] = {
        t.promise.tau = options.tau / 2;
      },
      "passed"},
-    {"threshold of one corner relaxed", "promise",
-     [](Told& t) { t.record.corners.front().threshold = 30; }},
-    {"threshold of one corner above a right angle", "promise",
-     [](Told& t) { t.record.corners.front().threshold = 179; }},
-    {"corner tightened without empty balls", "promise",
+    {"chamfers up to right angles without empty balls", "promise",
      [](Told& t) {
        t.promise.gabriel = t.record.parameters.gabriel = false;
-       t.record.corners.front().threshold = 90;
+       t.record.parameters.acute = t.record.parameters.corner = 90;
      }},
+    {"chamfers up to right angles, but not at corners of two edges", "promise",
+     [](Told& t) { t.record.parameters.acute = 90; }},
     {"radii of 2^60", "refined-chamfer-need",
      [](Told& t) {
        for (auto& corner : t.record.corners) corner.distance = 0x1p60;
@@ -132,8 +121,6 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.record.parameters.acute = HUGE_VAL; }},
     {"threshold of corners above a right angle", "promise",
      [](Told& t) { t.record.parameters.acute = t.record.parameters.corner = 120; }},
-    {"threshold of one corner that is not a number", "sidecar",
-     [](Told& t) { t.record.corners.front().threshold = std::nan(""); }},
     {"tolerance that is not a number", "sidecar",
      [](Told& t) {
        t.promise.budget = 1000;
@@ -159,18 +146,22 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.record.parameters.corner += 1; }, "passed"},
     {"delta stricter than asked for", "promise", [](Told& t) { t.record.parameters.delta += 0.01; },
      "caught by refined-angles"},
-    {"threshold of one corner between what was asked for and a right angle", "promise",
-     [](Told& t) { t.record.corners.front().threshold = 61; }, "caught by refined-chamfer-angles"},
+    {"threshold of corners between what was asked for and a right angle", "promise",
+     [](Told& t) { t.record.parameters.acute = 61; }},
     {"a bound of planar facets, of which there are none", "promise",
      [](Told& t) { t.record.parameters.planar = 0x1p-40; }, "passed"},
     {"a denormal bound of planar facets, of which there are none", "promise",
      [](Told& t) { t.record.parameters.planar = 0x1p-1074; }, "passed"},
     {"a bound of planar facets below nothing", "promise",
      [](Told& t) { t.record.parameters.planar = -0x1p-30; }},
-    {"threshold of one corner raised to a right angle", "refined-chamfer-angles",
-     [](Told& t) { t.record.corners.front().threshold = 90; }},
-    {"a facet dropped beside an edge between corners that were not tightened", "refined-filter",
-     tell_other_corners_tightened, "passed"},
+    {"a facet dropped beside an edge that is not acute", "refined-filter",
+     [](Told& t) {
+       run_without_sides(t);
+       t.promise.acute = t.record.parameters.acute = 60;
+     },
+     "passed"},
+    {"chamfers up to right angles, which the mesh does not have", "refined-chamfer-angles",
+     [](Told& t) { t.record.parameters.acute = t.record.parameters.corner = 90; }},
     {"a distance a ten-thousandth smaller", "refined-chamfer-extent",
      [](Told& t) { t.record.corners.front().distance *= 0.9999; }},
     {"distances up to the radius that was promised, not where the cuts are", "refined-segments",
@@ -243,11 +234,13 @@ const Lie kRelaxed[] = {
                    {}});
        t.promise.enrichment = true;
      }},
-    {"a corner tightened without a guard", "promise",
+    {"chamfers up to right angles without a guard", "promise",
      [](Told& t) {
        t.promise.no_guard = true;
-       t.record.corners.front().threshold = 90;
+       t.record.parameters.acute = t.record.parameters.corner = 90;
      }},
+    {"empty balls that were not asked for, without chamfers up to right angles", "promise",
+     [](Told& t) { t.promise.gabriel = false; }, "passed"},
     {"empty balls without a guard, not asked for", "promise",
      [](Told& t) {
        t.promise.no_guard = true;

@@ -177,7 +177,7 @@ const Lie kSections[] = {
      [](Told& t) { t.record.corners.push_back(t.record.corners.front()); }},
     {"a corner that is not acute", "refined-chamfer-need",
      [](Told& t) {
-       t.record.corners.push_back({1, 60, 0x1p-4});
+       t.record.corners.push_back({1, 0x1p-4});
      }},
     {"a point made by chamfering fewer", "refined-chamfer-cuts",
      [](Told& t) { t.record.chamfer_points.pop_back(); }},
@@ -266,7 +266,7 @@ const Lie kSections[] = {
      }},
     {"a corner that is not a vertex of the input", "refined-chamfer-need",
      [](Told& t) {
-       t.record.corners.push_back({t.record.chamfer_points.front()[0], 60, 0x1p-4});
+       t.record.corners.push_back({t.record.chamfer_points.front()[0], 0x1p-4});
      }},
     {"an artificial segment called one of the input", "refined-segments",
      [](Told& t) {

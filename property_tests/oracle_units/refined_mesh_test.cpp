@@ -31,8 +31,7 @@ class Sharp {
   }
   std::vector<ChamferFeatures::Feature> features(Index vertex,
                                                  const ChamferShape& shape = {}) const {
-    const auto sixty = [](Index) { return 60.0; };
-    const CornerThresholds thresholds = {sixty, sixty};
+    const CornerThresholds thresholds = {60, 60};
     return ChamferFeatures(points_, surface_, *corners_, thresholds, shape).at(vertex, [](Index) {
       return true;
     });
