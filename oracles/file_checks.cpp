@@ -161,12 +161,7 @@ void SolidStep::check_surface(const TetComplex& complex, const Neighbours& neigh
   OracleReport list =
       check_boundary_list(complex, neighbours, surface, conformity, listed,
                           labelled ? mesh_.labels : std::vector<std::int32_t>{}, exact_ != nullptr);
-  if (const double turned = list.figure(kTurned).value_or(0); turned > 0 && list.passed()) {
-    char text[100];
-    std::snprintf(text, sizeof text, "listed triangles are seen from outside (%.0f are not)",
-                  turned);
-    report_.unproven.emplace_back(text);
-  }
+  tell_turned(list, "seen from outside");
   if (!labelled) tell_lost_labels();
   add(std::move(list));
   check_names();

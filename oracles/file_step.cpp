@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "oracles/files/edge_nodes.h"
+#include "oracles/mesh/conformity.h"
 #include "oracles/mesh/edge_lengths.h"
 #include "oracles/mesh/loose_points.h"
 #include "oracles/verdict/edge_sizes.h"
@@ -84,6 +85,13 @@ bool FileStep::check_tetrahedra(const ExactPoints& points, bool is_part, TetComp
 void FileStep::say_first(const std::string& what, OracleReport& oracle) {
   report_.unproven.push_back(what);
   oracle.only_count();
+}
+
+void FileStep::tell_turned(const OracleReport& list, const char* how) {
+  const double turned = list.figure(kTurned).value_or(0);
+  if (turned == 0 || !list.passed()) return;
+  report_.unproven.push_back(std::string("listed triangles are ") + how + " (" +
+                             std::to_string(static_cast<std::uint64_t>(turned)) + " are not)");
 }
 
 // Others than delmesher promise no such vertices.

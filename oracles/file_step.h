@@ -28,6 +28,8 @@ class FileStep : public Step {
   // `longest`: the longest edge promised, per tetrahedron, instead of that of the promise. `fine`:
   // no face of the surface has a longer one.
   void check_lengths(const TetComplex& complex, std::span<const double> longest, bool fine);
+  // Names the listed triangles that are not turned as they should be, where these are only counted.
+  void tell_turned(const OracleReport& list, const char* how);
   // Names what has not been kept as unproven, instead of failing.
   void say_first(const std::string& what, OracleReport& oracle);
 

@@ -79,6 +79,7 @@ std::string RegionsStep::run() {
   add(std::move(parts.parts));
   add(std::move(parts.regions));
   check_points(complex, kRoundedUlps * ulp_);
+  tell_turned(parts.list, "as in the input");
   if (mesh_.lists_boundary || parts.list.checked > 0) add(std::move(parts.list));
   complex.inside.assign(complex.tetrahedra.size(), 1);
   OracleReport angles("angles", "tetrahedra inside");

@@ -147,14 +147,14 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     if (std::string why = label_by_angle(*labelled, degrees); !why.empty()) return why;
     frame.input = &*labelled;
   }
+  if (const double tolerance = options.promised.tolerance; tolerance != 0) {
+    const double share = tolerance < 0 ? -tolerance : tolerance / diagonal_of(input);
+    return verify_envelope(*frame.input, mesh, share, options, report);
+  }
   if (const std::vector<Position>& points = options.promised.points; !points.empty()) {
     with_points = *frame.input;
     with_points->vertices.insert(with_points->vertices.end(), points.begin(), points.end());
     frame.input = &*with_points;
-  }
-  if (const double tolerance = options.promised.tolerance; tolerance != 0) {
-    const double share = tolerance < 0 ? -tolerance : tolerance / diagonal_of(input);
-    return verify_envelope(*frame.input, mesh, share, options, report);
   }
   const bool may_keep = frame.options.promised.may_keep;
   const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped

@@ -140,6 +140,10 @@ TEST(LoosePoints, ThatAreNoVerticesAreSaid) {
     for (const std::size_t n : {0U, 2U, 6U}) {
       EXPECT_EQ(std::ranges::count(result.mesh.vertices, points[n]), 1);
     }
+    const VerifyReport report = verified(box_with({}), result, options, points);
+    EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+    ASSERT_NE(report.find("points"), nullptr);
+    EXPECT_EQ(report.find("points")->checked, points.size());
   }
 }
 

@@ -183,7 +183,7 @@ TEST(RegionPoints, ThatAreNowhereOrContradictEachOther) {
 
 // In other units, and beside the origin.
 TEST(RegionPoints, MoveWithTheSurface) {
-  for (const double scale : {1.0, 0x1p-100, 0x1p90}) {
+  for (const double scale : {1.0, 0x1p-100, 0x1p90, 0x1p-300, 0x1p300}) {
     for (const double away : {0.0, 0x1p30}) {
       Builder builder;
       builder.box({0, 0, 0}, {2, 2, 2});
@@ -206,6 +206,11 @@ TEST(RegionPoints, MoveWithTheSurface) {
       for (const auto& region : result.regions) {
         EXPECT_EQ(region.max_edge, region.name == "a" ? 1.5 * scale : 0);
       }
+      MeshFile mesh = with_region_names(result);
+      const Polyhedron input = with_points(surface, options.region_points);
+      EXPECT_EQ(verified(input, mesh).verdict, oracles::Verdict::exact);
+      std::swap(mesh.names[{3, 1}], mesh.names[{3, 2}]);
+      EXPECT_EQ(verified(input, mesh).verdict, oracles::Verdict::broken);
     }
   }
 }

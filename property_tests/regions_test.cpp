@@ -616,6 +616,37 @@ TEST_P(RegionDamage, IsCaughtByTheOracleMeantForIt) {
 
 INSTANTIATE_TEST_SUITE_P(All, RegionDamage, testing::ValuesIn(kDamages), test_name<Damage>);
 
+// A wall that is given once for each body, with its label: each way round has one of them.
+TEST(AllRegions, TurnedTrianglesAndLabelsOfTheOtherSideAreSaidFirst) {
+  Builder builder;
+  builder.box({0, 0, 0}, {2, 2, 2}, 1);
+  builder.box({2, 0, 0}, {4, 2, 2}, 2);
+  const Surface surface = builder.surface();
+  const Result result = delmesher::tetrahedralize(surface, all_regions());
+  ASSERT_TRUE(result.status.ok());
+  const Polyhedron input = samples::to_polyhedron(surface);
+  const MeshFile good = samples::to_mesh(result.mesh);
+  EXPECT_EQ(verified(input, good).unproven, std::vector<std::string>());
+  const auto is_of_wall = [&](const oracles::Face& face) {
+    return std::ranges::all_of(face, [&](oracles::Index v) { return good.vertices[v][0] == 2; });
+  };
+  const auto n = static_cast<std::size_t>(std::ranges::find_if(good.boundary, is_of_wall) -
+                                          good.boundary.begin());
+  ASSERT_LT(n, good.boundary.size());
+  const std::vector<std::string> said = {"listed triangles are as in the input (1 are not)"};
+  MeshFile mesh = good;
+  mesh.labels[n] = 3 - mesh.labels[n];
+  EXPECT_EQ(verified(input, mesh).unproven, said);
+  std::swap(mesh.boundary[n][0], mesh.boundary[n][1]);  // the other side, with its label
+  EXPECT_EQ(verified(input, mesh).unproven, std::vector<std::string>());
+  mesh = good;
+  std::swap(mesh.boundary[n][0], mesh.boundary[n][1]);
+  EXPECT_EQ(verified(input, mesh).unproven, said);
+  mesh = good;
+  std::swap(mesh.boundary.front()[0], mesh.boundary.front()[1]);
+  EXPECT_EQ(verified(input, mesh).unproven, said);
+}
+
 // What is left on the surface is not called proven.
 TEST(AllRegions, SplitTrianglesAreNotDecided) {
   Told told = honest();

@@ -102,7 +102,7 @@ bool undecidable(const TetComplex& complex, const InputSurface& surface,
 // each carries the label of its facet (labels may be empty). Faces of the hull may be listed too.
 // If `oriented`, all are counter-clockwise from outside. How many are not is told otherwise (a
 // figure): no format says which, and TetGen lists all of them the other way round.
-inline constexpr const char* kTurned = "seen from inside";
+inline constexpr const char* kTurned = "turned";
 OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
                                  const InputSurface& surface, const ConformityResult& conformity,
                                  const std::vector<Face>& listed,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "oracles/base/box.h"
 #include "oracles/base/triangle_distance.h"
 #include "oracles/mesh/region_points.h"
 
@@ -55,9 +56,19 @@ OracleReport check_loose_points(const Polyhedron& input, const MeshFile& mesh,
                 [&](Index v) { return std::ranges::binary_search(there, input.vertices[v]); });
   const std::vector<std::vector<Index>> around =
       tetrahedra_around(*complex.points, complex, missing);
+  Box box;
+  for (const auto& triangle : input.triangles) {
+    for (const Index v : triangle) box.add(input.vertices[v]);
+  }
+  const auto is_beside = [&](const Position& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(p[k] > box.low[k] && p[k] < box.high[k])) return true;
+    }
+    return false;
+  };
   std::uint64_t outside = 0, on_surface = 0;
   for (std::size_t n = 0; n < missing.size(); ++n) {
-    if (around[n].empty()) {
+    if (around[n].empty() || is_beside(input.vertices[missing[n]])) {
       ++outside;
     } else if (is_near(input, *complex.points, missing[n], near)) {
       ++on_surface;

@@ -12,9 +12,10 @@ namespace tetproof::oracles {
 
 std::vector<Index> loose_points(const Polyhedron& input);
 
-// Is each a vertex of the mesh, with the same doubles? One outside of all tetrahedra need not be,
-// nor one on a triangle of the input (exactly) or within `near` of one (input units, D), which are
-// counted. `complex`: on the vertices of the input, then those of the file.
+// Is each a vertex of the mesh, with the same doubles? One outside of all tetrahedra or of the
+// box of the triangles need not be, nor one on a triangle of the input (exactly) or within `near`
+// of one (input units, D), which are counted. `complex`: on the vertices of the input, then those
+// of the file.
 OracleReport check_loose_points(const Polyhedron& input, const MeshFile& mesh,
                                 const TetComplex& complex, double near);
 

@@ -13,6 +13,7 @@
 
 #include "oracles/base/distances.h"
 #include "oracles/base/union_find.h"
+#include "oracles/mesh/conformity.h"
 #include "oracles/mesh/region_points.h"
 #include "oracles/mesh/shells.h"
 #include "oracles/mesh/solids.h"
@@ -32,7 +33,8 @@ struct Triangle {
   Face corners;
   Face sorted;
   std::vector<std::int32_t> labels;
-  Index given = 0;  // the first one
+  std::vector<bool> even;  // per label: how its triangle is turned, as sort_face says
+  Index given = 0;         // the first one
   // The tetrahedron in front, where its corners are seen counter-clockwise, and the one behind.
   std::array<Index, 2> beside = {kNobody, kNobody};
 };
@@ -138,12 +140,13 @@ class Parts {
       Triangle triangle;
       for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = vertex[input_.triangles[t][k]];
       triangle.sorted = triangle.corners;
-      sort_face(triangle.sorted);
+      const bool even = sort_face(triangle.sorted);
       triangle.given = t;
       const auto [at, fresh] =
           known.try_emplace(triangle.sorted, static_cast<Index>(triangles_.size()));
       if (fresh) triangles_.push_back(triangle);
       triangles_[at->second].labels.push_back(input_.labels.empty() ? 0 : input_.labels[t]);
+      triangles_[at->second].even.push_back(even);
     }
     by_corners_ = std::move(known);
     for (const Triangle& t : triangles_) corners_.push_back(t.corners);
@@ -482,6 +485,16 @@ class Parts {
     }
   }
 
+  // Is one of those given as that listed one is? Those of split walls are two of the file.
+  bool is_as_given(const Triangle& t, std::size_t listed, bool even) const {
+    if (splits_walls() && t.beside[0] != kNobody && t.beside[1] != kNobody) return true;
+    const bool labelled = listed < mesh_.labels.size() && !input_.labels.empty();
+    for (std::size_t n = 0; n < t.labels.size(); ++n) {
+      if (t.even[n] == even && (!labelled || t.labels[n] == mesh_.labels[listed])) return true;
+    }
+    return false;
+  }
+
   void check_list() {
     if (mesh_.boundary.empty()) {
       if (mesh_.lists_boundary) result_.list.fail("the file lists no triangles");
@@ -489,6 +502,7 @@ class Parts {
     }
     std::vector<std::uint8_t> listed(triangles_.size(), 0);
     result_.list.checked = mesh_.boundary.size();
+    std::uint64_t turned = 0;
     for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
       Face face = mesh_.boundary[n];
       const std::string what = "listed triangle " + std::to_string(n);
@@ -503,8 +517,11 @@ class Parts {
           std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
         result_.list.fail(what + " has label " + std::to_string(mesh_.labels[n]) + ", and " +
                           name(triangles_[t]) + " has not");
+      } else if (!is_as_given(triangles_[t], n, sort_face(face))) {
+        ++turned;
       }
     }
+    if (turned > 0) result_.list.figures.emplace_back(kTurned, static_cast<double>(turned));
     for (Index t = 0; t < triangles_.size(); ++t) {
       const bool face = triangles_[t].beside[0] != kNobody || triangles_[t].beside[1] != kNobody;
       if (face && listed[t] == 0) result_.list.fail(name(triangles_[t]) + " is not listed");

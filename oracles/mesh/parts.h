@@ -38,7 +38,8 @@ struct PartsResult {
   // the name of a label is surrounded by the triangles of that label.
   OracleReport regions{"regions", "parts"};
   // The triangles that the file lists are those of the input that are faces, each once, with one of
-  // the labels given.
+  // the labels given. Those that are turned, or have the label of the other side, are counted: not
+  // every format of surfaces or meshes has sides.
   OracleReport list{"boundary-list", "triangles"};
   std::uint64_t split = 0;  // triangles that may be, see below
   // Per tetrahedron its part; if walls are to be split, what each part is called, if anything.

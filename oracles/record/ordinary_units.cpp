@@ -57,12 +57,17 @@ std::optional<InOrdinaryUnits> in_ordinary_units(const Polyhedron& input, const 
   }
   InOrdinaryUnits result{input, mesh, {}, promise, std::ilogb(largest)};
   Scaling scaled(-result.exponent);
+  Scaling volumes(-3 * result.exponent);
   for (Position& p : result.input.vertices) scaled(p);
+  for (RegionPoint& region : result.input.region_points) {
+    scaled(region.point);
+    volumes(region.volume);
+  }
   for (Position& p : result.mesh.vertices) scaled(p);
   for (MeshFile::EdgeNode& node : result.mesh.edge_nodes) scaled(node.at);
   for_each_length(result.promise, std::ref(scaled));
   if (record != nullptr) scale(result.record.emplace(*record), scaled);
-  if (!scaled.exact()) return {};
+  if (!scaled.exact() || !volumes.exact()) return {};
   return result;
 }
 
