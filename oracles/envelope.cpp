@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <iomanip>
 #include <map>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "oracles/base/box.h"
 #include "oracles/base/box_tree.h"
 #include "oracles/base/triangle_distance.h"
 #include "oracles/base/vectors.h"
@@ -204,12 +207,14 @@ OracleReport check_distances(const Polyhedron& input, const Polyhedron& own, dou
   // What the bounds are uncertain by is nobody's fault.
   const double most = allowed * 1.01;
   if (there > most) {
-    report.fail("the mesh's surface is as far from the input as " +
-                std::to_string(there / allowed) + " envelopes" + place_name(worst_there, exponent));
+    const Position at = in_units(worst_there, exponent);
+    report.fail_at(at, "the mesh's surface is as far from the input as " +
+                           std::to_string(there / allowed) + " envelopes" + place_name(at));
   }
   if (back > most) {
-    report.fail("the input is as far from the mesh's surface as " + std::to_string(back / allowed) +
-                " envelopes" + place_name(worst_back, exponent));
+    const Position at = in_units(worst_back, exponent);
+    report.fail_at(at, "the input is as far from the mesh's surface as " +
+                           std::to_string(back / allowed) + " envelopes" + place_name(at));
   }
   return report;
 }
@@ -359,9 +364,10 @@ class Sides {
       if (given < 0 || made < 0) continue;
       ++report_.checked;
       if (given == made) return;
-      report_.fail((given == 1 ? "the input has volume that the mesh has not"
-                               : "the mesh has volume that the input has not") +
-                   place_name(p, exponent));
+      const Position at = in_units(p, exponent);
+      report_.fail_at(at, (given == 1 ? "the input has volume that the mesh has not"
+                                      : "the mesh has volume that the input has not") +
+                              place_name(at));
       return;
     }
   }
@@ -439,10 +445,14 @@ void broken(VerifyReport& report, const std::string& oracle, const std::string& 
 
 }  // namespace
 
-std::string place_name(const Position& p, int exponent) {
+Position in_units(const Position& p, int exponent) {
+  return {std::ldexp(p[0], exponent), std::ldexp(p[1], exponent), std::ldexp(p[2], exponent)};
+}
+
+std::string place_name(const Position& given) {
   std::ostringstream text;
-  text << std::setprecision(12) << " at (" << std::ldexp(p[0], exponent) << ", "
-       << std::ldexp(p[1], exponent) << ", " << std::ldexp(p[2], exponent) << ")";
+  text << std::setprecision(12) << " at (" << given[0] << ", " << given[1] << ", " << given[2]
+       << ")";
   return text.str();
 }
 
@@ -461,6 +471,31 @@ double farthest(const Polyhedron& from, const Polyhedron& to, double precision, 
   for (std::size_t t = 0; t < from.triangles.size(); ++t) search.look_at(corners_of(from, t));
   if (place != nullptr) *place = search.place();
   return search.bound();
+}
+
+bool only_surface_differs(const VerifyReport& report) {
+  if (report.verdict != Verdict::broken) return false;
+  bool elsewhere = false;
+  for (const OracleReport& oracle : report.oracles) {
+    if (oracle.passed()) continue;
+    const bool of_surface = oracle.name == "conformity" || oracle.name == "volume";
+    if (!of_surface && oracle.name != "boundary-list" && oracle.name != "hull") return false;
+    elsewhere = elsewhere || of_surface;
+  }
+  return elsewhere;
+}
+
+std::optional<NearSurface> nearness(const Polyhedron& input, const MeshFile& mesh) {
+  const Polyhedron own = boundary_of(mesh);
+  if (own.triangles.empty()) return std::nullopt;
+  // Where two surfaces are in one place, the time grows as the precision does.
+  const double diagonal = box_of(input.vertices).diagonal(), precision = 1e-3 * diagonal;
+  NearSurface near;
+  near.farthest = std::max(farthest(input, own, precision, 0), farthest(own, input, precision, 0));
+  // What the envelope's own bounds add is less than a tenth.
+  std::snprintf(near.envelope, sizeof near.envelope, "%.0e",
+                1.6 * std::max(near.farthest / diagonal, kLeastEnvelope));
+  return std::strtod(near.envelope, nullptr) > 1 ? std::nullopt : std::optional(near);
 }
 
 Polyhedron boundary_of(const MeshFile& mesh) {
@@ -555,6 +590,10 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   if (const std::string why = verify(own, bare, nullptr, as_given, report); !why.empty()) {
     broken(report, "own-surface", "the boundary of the tetrahedra bounds no solid: " + why);
     return {};
+  }
+  // Numbers of its own surface are not those of the input.
+  for (OracleReport& oracle : report.oracles) {
+    std::erase_if(oracle.sites, [](const Site& p) { return p.kind >= Site::Kind::input_vertex; });
   }
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);

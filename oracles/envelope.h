@@ -9,6 +9,7 @@
 // what tolerance.h says.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "oracles/files/mesh_file.h"
@@ -27,8 +28,9 @@ inline constexpr double kLeastEnvelope = 1e-7;
 double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough,
                 Position* place = nullptr);
 
-// Coordinates in units of 2^exponent, in words.
-std::string place_name(const Position& p, int exponent);
+// Coordinates in units of 2^exponent, in those given; and in words.
+Position in_units(const Position& p, int exponent);
+std::string place_name(const Position& given);
 
 // Turns the shells that are inside out: parity decides what is inside. Empty on success, else why
 // the surface bounds no solid.
@@ -37,6 +39,17 @@ std::string turn_outwards(Polyhedron& surface);
 // The faces of one tetrahedron, seen from outside, with the vertices that they use. Their labels,
 // if the file lists all of them with one.
 Polyhedron boundary_of(const MeshFile& mesh);
+
+// Is nothing wrong with a mesh but that its surface is another one?
+bool only_surface_differs(const VerifyReport& report);
+
+// How near it is, and an envelope that such a mesh is in, as a fraction of the diagonal of one
+// digit. None if that is above 1.
+struct NearSurface {
+  double farthest;  // in input units
+  char envelope[32];
+};
+std::optional<NearSurface> nearness(const Polyhedron& input, const MeshFile& mesh);
 
 // Empty on success, else why the input bounds no solid. `share` is the envelope, as a fraction of
 // the input's diagonal; the report's deviation is the larger one of the two distances.

@@ -32,7 +32,8 @@ bool FileStep::check_finite() {
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
     ++report.checked;
     if (!is_finite(mesh_.vertices[v])) {
-      report.fail("vertex " + std::to_string(v) + " is not finite");
+      report.fail("vertex " + std::to_string(v) + " is not finite",
+                  {Site::Kind::vertex, {static_cast<Index>(v), 0, 0}});
     }
   }
   if (report.violations == 0) return true;

@@ -94,16 +94,17 @@ void compare(const Polyhedron& from, const Polyhedron& to, const WithinTolerance
   report.checked += from.triangles.size();
   if (from.triangles.empty()) return;
   if (to.triangles.empty()) {
-    report.fail(what + place_name(from.vertices[from.triangles[0][0]], s.exponent) +
-                ", and there are no " + of_what);
+    const Position at = in_units(from.vertices[from.triangles[0][0]], s.exponent);
+    report.fail_at(at, what + place_name(at) + ", and there are no " + of_what);
     return;
   }
   Position place{};
   const double far = farthest(from, to, s.allowed / 100, s.allowed, &place);
   report.figures.emplace_back(what + " from " + of_what + ", at most", far);
   if (far <= kUncertain * s.allowed) return;
-  report.fail(what + ": as far as " + std::to_string(far / s.allowed) + " tolerances from " +
-              of_what + place_name(place, s.exponent));
+  const Position at = in_units(place, s.exponent);
+  report.fail_at(at, what + ": as far as " + std::to_string(far / s.allowed) + " tolerances from " +
+                         of_what + place_name(at));
 }
 
 // Solid shells and cavities, by genus.

@@ -215,6 +215,12 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     name_what_is_trusted(frame, may_keep, tetrahedra, report);
   }
   if (options.promised.names) report.unproven.emplace_back(kOtherNames);
+#ifndef TETPROOF_SECOND_OPINIONS
+  report.unproven.emplace_back(kInputNotAsked);
+#endif
+  if (frame.merged) {  // their numbers are those of one vertex at each place
+    for (OracleReport& oracle : report.oracles) oracle.sites.clear();
+  }
   conclude(diagonal, report);
   put_in_given_units(frame, report);
   return {};

@@ -14,7 +14,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "oracles/base/box.h"
 #include "oracles/base/heap.h"
 #include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
@@ -129,13 +128,6 @@ std::string reason(const VerifyReport& report) {
   return line + " by more than declared";
 }
 
-// Every promise is checked, whether the record has its sections or not. A file alone is taken for a
-// final mesh unless --promised or --stage says otherwise.
-Stage promised_stage(const Promise& promised, const std::string& exact) {
-  if (promised.approximate) return Stage::refined;
-  return exact.empty() || promised.task == Task::cdt ? Stage::final : Stage::both;
-}
-
 // The second kernel reads the record's text once more.
 void refuse_pipe(const std::string& path) {
   std::error_code unknown;
@@ -161,7 +153,7 @@ std::string verify_mesh(const Arguments& arguments, VerifyReport& report) {
     record = read_sidecar(arguments.exact, &options.record_version);
   }
   options.sidecar = arguments.exact;
-  options.stage = arguments.stage.value_or(promised_stage(options.promised, arguments.exact));
+  options.stage = arguments.stage.value_or(stage_of(options.promised, !arguments.exact.empty()));
   terminal.say(std::to_string(mesh.tetrahedra.size()) + " tetrahedra read");
   options.progress = [&](const OracleReport& oracle) {
     terminal.say(oracle.name + ": " + std::to_string(oracle.checked) + " " + oracle.checked_what);
@@ -198,30 +190,13 @@ std::string verify_improved_mesh(const Arguments& arguments, VerifyReport& repor
 // What to do about a mesh that is wrong in nothing but that its surface is another one; else empty.
 std::string way_on(const Arguments& arguments, const VerifyReport& report) {
   const bool is_own = arguments.envelope > 0 || arguments.options.promised.tolerance != 0;
-  if (report.verdict != Verdict::broken || is_own || !arguments.exact.empty()) return {};
-  bool elsewhere = false;
-  for (const OracleReport& oracle : report.oracles) {
-    if (oracle.passed()) continue;
-    const bool of_surface = oracle.name == "conformity" || oracle.name == "volume";
-    if (!of_surface && oracle.name != "boundary-list") return {};
-    elsewhere = elsewhere || of_surface;
-  }
-  if (!elsewhere) return {};
-  const Polyhedron input = read_surface(arguments.input);
-  const Polyhedron own = boundary_of(read_mesh(arguments.mesh));
-  if (own.triangles.empty()) return {};
-  // Where two surfaces are in one place, the time grows as the precision does.
-  const double diagonal = box_of(input.vertices).diagonal(), precision = 1e-3 * diagonal;
-  const double far =
-      std::max(farthest(input, own, precision, 0), farthest(own, input, precision, 0));
-  // Of one digit, and above both: what the envelope's own bounds add is less than a tenth.
-  char share[32];
-  std::snprintf(share, sizeof share, "%.0e", 1.6 * std::max(far / diagonal, kLeastEnvelope));
-  if (std::strtod(share, nullptr) > 1) return {};
+  if (is_own || !arguments.exact.empty() || !only_surface_differs(report)) return {};
+  const auto near = nearness(read_surface(arguments.input), read_mesh(arguments.mesh));
+  if (!near) return {};
   char text[200];
   std::snprintf(text, sizeof text,
                 "the surface is another one, at most %.2g away: --envelope %s judges such a mesh\n",
-                far, share);
+                near->farthest, near->envelope);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracles/envelope.h"
 #include "oracles/surface/input_surface.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
@@ -99,6 +100,65 @@ Index vertex_at(const Sample& sample, const Position& p) {
 
 double up(double x) {
   return std::nextafter(x, std::numeric_limits<double>::infinity());
+}
+
+// What an oracle says in words it says in numbers, too.
+std::vector<std::vector<Index>> sites(const VerifyReport& report, const char* oracle,
+                                      Site::Kind kind) {
+  std::vector<std::vector<Index>> found;
+  const OracleReport* said = report.find(oracle);
+  if (said == nullptr) return found;
+  for (const Site& site : said->sites) {
+    const std::size_t numbers = kSiteKinds[static_cast<std::size_t>(kind)].numbers;
+    if (site.kind == kind) {
+      found.emplace_back(site.numbers.begin(),
+                         site.numbers.begin() + static_cast<std::ptrdiff_t>(numbers));
+    }
+  }
+  return found;
+}
+
+TEST(OracleDamage, HasAPlace) {
+  Sample sample = samples::cube();
+  std::swap(sample.mesh.tetrahedra[3][0], sample.mesh.tetrahedra[3][1]);
+  sample.mesh.vertices.push_back({0.3, 0.3, 0.3});
+  VerifyReport report = run(sample);
+  using Numbers = std::vector<std::vector<Index>>;
+  EXPECT_EQ(sites(report, "orientation", Site::Kind::tetrahedron), Numbers{{3}});
+  EXPECT_EQ(sites(report, "complex", Site::Kind::vertex),
+            (Numbers{{static_cast<Index>(sample.mesh.vertices.size() - 1)}}));
+  EXPECT_FALSE(sites(report, "complex", Site::Kind::face).empty());
+
+  sample = samples::cube();
+  const Index moved = vertex_at(sample, {0.5, 0.5, 1});
+  sample.mesh.vertices[moved][2] += 0x1p-4;
+  report = run(sample);
+  EXPECT_EQ(sites(report, "conformity", Site::Kind::vertex), Numbers{{moved}}) << to_text(report);
+  const Numbers triangles = sites(report, "conformity", Site::Kind::input_triangle);
+  ASSERT_EQ(triangles.size(), 2U);
+  for (const std::vector<Index>& t : triangles) {
+    for (const Index v : sample.input.triangles[t[0]]) EXPECT_EQ(sample.input.vertices[v][2], 1);
+  }
+
+  sample = samples::cube();
+  std::swap(sample.mesh.boundary[4], sample.mesh.boundary.back());
+  const std::array<Index, 3> lost = sample.mesh.boundary.back();
+  sample.mesh.boundary.back() = sample.mesh.boundary[0];
+  sample.mesh.labels.clear();
+  report = run(sample);
+  EXPECT_EQ(sites(report, "boundary-list", Site::Kind::listed_triangle),
+            (Numbers{{static_cast<Index>(sample.mesh.boundary.size() - 1)}}));
+  const Numbers faces = sites(report, "boundary-list", Site::Kind::face);
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_TRUE(std::is_permutation(lost.begin(), lost.end(), faces[0].begin()));
+
+  VerifyOptions near;
+  sample = samples::cube();
+  sample.mesh.vertices[moved][2] += 0x1p-4;
+  ASSERT_EQ(verify_envelope(sample.input, sample.mesh, 1e-3, near, report), "");
+  const std::vector<Position>& points = report.find("envelope")->points;
+  ASSERT_FALSE(points.empty());
+  EXPECT_NEAR(points[0][2], 1 + 0x1p-4, 0x1p-10);
 }
 
 TEST(OracleDamage, OneUlpOffAFacetIsNoLongerExact) {

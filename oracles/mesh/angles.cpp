@@ -567,8 +567,9 @@ OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbour
     char text[64];
     std::snprintf(text, sizeof text, " has an angle of %.6g degrees at ",
                   exact_angle(parts.sine_squared, parts.cosine));
-    report.fail(complex.tet_name(t) + text + complex.vertex_name(at[0]) + " in " +
-                complex.face_name(at));
+    report.fail(
+        complex.tet_name(t) + text + complex.vertex_name(at[0]) + " in " + complex.face_name(at),
+        complex.tet_site(t));
   }
   report.figures.emplace_back("bound", delta);
   report.figures.emplace_back("bad tetrahedra outside the solid", left_alone);

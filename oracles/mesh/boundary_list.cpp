@@ -27,13 +27,17 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
   }
   std::sort(hull.begin(), hull.end());
   std::uint64_t turned = 0;
+  const auto site = [](std::size_t i) {
+    return Site{Site::Kind::listed_triangle, {static_cast<Index>(i), 0, 0}};
+  };
   for (std::size_t i = 0; i < listed.size(); ++i) {
     ++report.checked;
     const auto at =
         std::lower_bound(actual.begin(), actual.end(), std::pair(sorted(listed[i]), Index{0}));
     if (at == actual.end() || at->first != sorted(listed[i])) {
       if (std::binary_search(hull.begin(), hull.end(), sorted(listed[i]))) continue;
-      report.fail("listed triangle " + std::to_string(i) + " is not a boundary face of the solid");
+      report.fail("listed triangle " + std::to_string(i) + " is not a boundary face of the solid",
+                  site(i));
       continue;
     }
     Face outwards = conformity.faces[at->second];
@@ -41,17 +45,20 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
       std::rotate(outwards.begin(), outwards.begin() + 1, outwards.end());
     turned += outwards != listed[i];
     if (found[at - actual.begin()]++) {
-      report.fail("listed triangle " + std::to_string(i) + " is listed twice");
+      report.fail("listed triangle " + std::to_string(i) + " is listed twice", site(i));
     }
     const Index facet = conformity.facets[at->second];
     if (!labels.empty() && facet != kNone && surface.facets()[facet].label != labels[i]) {
       report.fail("listed triangle " + std::to_string(i) + " has label " +
-                  std::to_string(labels[i]) + ", its facet " +
-                  std::to_string(surface.facets()[facet].label));
+                      std::to_string(labels[i]) + ", its facet " +
+                      std::to_string(surface.facets()[facet].label),
+                  site(i));
     }
   }
   for (std::size_t i = 0; i < actual.size(); ++i) {
-    if (!found[i]) report.fail("boundary " + complex.face_name(actual[i].first) + " is not listed");
+    if (found[i]) continue;
+    const Face& face = actual[i].first;
+    report.fail("boundary " + complex.face_name(face) + " is not listed", complex.face_site(face));
   }
   if (turned > 0) report.figures.emplace_back(kTurned, static_cast<double>(turned));
   if (oriented && turned > 0) {

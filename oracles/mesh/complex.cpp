@@ -41,10 +41,10 @@ bool check_corners(const TetComplex& complex, OracleReport& report) {
   for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
     const Tet corners = ascending(complex.tetrahedra[t]);
     if (corners[3] >= complex.points->size() || corners[0] < complex.first_vertex) {
-      report.fail(complex.tet_name(t) + " has a corner out of range");
+      report.fail(complex.tet_name(t) + " has a corner out of range", complex.tet_site(t));
       usable = false;
     } else if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
-      report.fail(complex.tet_name(t) + " repeats a corner");
+      report.fail(complex.tet_name(t) + " repeats a corner", complex.tet_site(t));
       usable = false;
     }
   }
@@ -68,7 +68,8 @@ std::int64_t count_used(const TetComplex& complex, const auto& cells) {
 std::int64_t check_used(const TetComplex& complex, OracleReport& report) {
   const std::vector<std::uint8_t> used = used_by(complex, complex.tetrahedra);
   for (Index v = complex.first_vertex; v < complex.last_vertex; ++v) {
-    if (!used[v]) report.fail(complex.vertex_name(v) + " belongs to no tetrahedron");
+    if (used[v]) continue;
+    report.fail(complex.vertex_name(v) + " belongs to no tetrahedron", complex.vertex_site(v));
   }
   return std::count(used.begin(), used.end(), 1);
 }
@@ -95,7 +96,8 @@ std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& bo
     }
     if (balance != 0) {
       report.fail("the boundary is open at edge " + complex.vertex_name(edges[i][0]) + " - " +
-                  complex.vertex_name(edges[i][1]));
+                      complex.vertex_name(edges[i][1]),
+                  complex.edge_site(edges[i][0], edges[i][1]));
     }
     i = j;
   }
@@ -128,7 +130,8 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
   for (std::size_t i = 1; i < faces.size(); ++i) {
     if (faces[i].opposite == faces[i - 1].opposite && faces[i].opposite > sorted[2]) {
       report.fail(complex.tet_name(faces[i].tet_face() / 4) + " duplicates " +
-                  complex.tet_name(faces[i - 1].tet_face() / 4));
+                      complex.tet_name(faces[i - 1].tet_face() / 4),
+                  complex.tet_site(faces[i].tet_face() / 4));
     }
   }
   const Index first = faces[0].tet_face();
@@ -137,15 +140,17 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
     return;
   }
   if (faces.size() > 2) {
-    report.fail(complex.face_name(sorted) + " belongs to " + std::to_string(faces.size()) +
-                " tetrahedra");
+    report.fail(
+        complex.face_name(sorted) + " belongs to " + std::to_string(faces.size()) + " tetrahedra",
+        complex.face_site(sorted));
     return;
   }
   const Index second = faces[1].tet_face();
   if (faces[0].even() == faces[1].even()) {
     report.fail(complex.face_name(sorted) + " has both its tetrahedra, " +
-                std::to_string(first / 4) + " and " + std::to_string(second / 4) +
-                ", on the same side");
+                    std::to_string(first / 4) + " and " + std::to_string(second / 4) +
+                    ", on the same side",
+                complex.face_site(sorted));
   }
   neighbours.across[first] = second;
   neighbours.across[second] = first;
@@ -373,7 +378,8 @@ OracleReport check_orientation(const TetComplex& complex) {
     ++report.checked;
     if (sign > 0) continue;
     ++(sign < 0 ? inverted : flat);
-    report.fail(complex.tet_name(t) + (sign < 0 ? " is inverted" : " is flat"));
+    report.fail(complex.tet_name(t) + (sign < 0 ? " is inverted" : " is flat"),
+                complex.tet_site(t));
   }
   report.figures.emplace_back("inverted", inverted);
   report.figures.emplace_back("flat", flat);

@@ -58,6 +58,7 @@ class Conformity {
     if (!ended()) grow_patches();
     if (!ended()) check_borders();
     if (!ended()) check_facets();
+    name_failed_triangles();
     result_.report.checked = result_.faces.size();
     result_.report.figures.emplace_back("facets", surface_.facets().size());
     result_.report.figures.emplace_back("edges", surface_.edges().size());
@@ -76,6 +77,7 @@ class Conformity {
   void check_borders();
   void check_border(Index a, std::size_t edge);
   void check_facets();
+  void name_failed_triangles();
   bool is_triangle(Index facet, std::span<const Index> triangles,
                    std::span<const Index> faces) const;
   void check_facet(Index facet, std::span<const Index> triangles, std::span<const Index> faces);
@@ -106,13 +108,13 @@ class Conformity {
   double known_deviation(double ulp) const {
     return std::min(result_.deviation, result_.ulps * ulp);
   }
-  void fail(const std::string& what) {
+  void fail(const std::string& what, const Site& site) {
     ++result_.failed_elsewhere;
-    result_.report.fail(what);
+    result_.report.fail(what, site);
   }
   void fail_edge(const InputSurface::Edge& edge, const std::string& what) {
     result_.failed_edges.push_back(static_cast<Index>(&edge - surface_.edges().data()));
-    result_.report.fail(what);
+    result_.report.fail(what, {Site::Kind::input_edge, {edge.from, edge.to, 0}});
   }
   void fail_facet(Index facet, const std::string& what) {
     result_.failed_facets.push_back(facet);
@@ -153,7 +155,8 @@ void Conformity::match_vertices() {
   match_.emplace(points_, *edges_, surface_, options_);
   for (const Index v : surface_.used_vertices()) {
     if (match_->of(v) == kNone) {
-      fail("input vertex " + std::to_string(v) + " is not on the boundary");
+      fail("input vertex " + std::to_string(v) + " is not on the boundary",
+           {Site::Kind::input_vertex, {v, 0, 0}});
     }
   }
   const std::vector<Index>& moved = match_->moved();
@@ -255,7 +258,8 @@ void Conformity::grow_patches() {
   }
   for (std::size_t f = 0; f < result_.faces.size(); ++f) {
     if (result_.facets[f] == kNone) {
-      fail("boundary " + complex_.face_name(result_.faces[f]) + " lies on no input facet");
+      fail("boundary " + complex_.face_name(result_.faces[f]) + " lies on no input facet",
+           complex_.face_site(result_.faces[f]));
     }
   }
 }
@@ -278,7 +282,7 @@ void Conformity::check_border(Index a, std::size_t edge) {
   };
   const bool again = edge > edges.from(a).first && edges[edge - 1].to == b;
   if (back.size() != 1 || again) {
-    return fail(name() + " does not have one face on either side");
+    return fail(name() + " does not have one face on either side", complex_.edge_site(a, b));
   }
   const Index mine = result_.facets[edges[edge].face],
               other = result_.facets[edges[back.first].face];
@@ -303,6 +307,18 @@ void Conformity::check_facets() {
   for (Index facet = 0; facet < surface_.facets().size() && !ended(); ++facet) {
     if (!is_triangle(facet, members.of(facet), patches.of(facet))) {
       check_facet(facet, members.of(facet), patches.of(facet));
+    }
+  }
+}
+
+void Conformity::name_failed_triangles() {
+  std::vector<Index> failed = result_.failed_facets;
+  if (failed.empty()) return;
+  make_unique(failed);
+  const InputSurface::Members members = surface_.members();
+  for (const Index facet : failed) {
+    for (const Index t : members.of(facet)) {
+      result_.report.add_site({Site::Kind::input_triangle, {t, 0, 0}});
     }
   }
 }
@@ -382,6 +398,7 @@ void Conformity::check_folded(Index facet, const std::vector<Face>& folded,
   const auto fail_folded = [&](const Face& face) {
     fail_facet(facet,
                "boundary " + complex_.face_name(face) + " is folded over on " + facet_name(facet));
+    result_.report.add_site(complex_.face_site(face));
   };
   if (options_.exact) {
     for (const Face& face : folded) fail_folded(face);
@@ -454,6 +471,7 @@ void Conformity::check_in_plane(Index facet, Index v) {
   const double distance = std::fabs(component(off, normal, points_.exponent()));
   if (options_.exact || !(distance <= most_off_plane(facet, distance))) {
     fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet));
+    result_.report.add_site(complex_.vertex_site(v));
   } else {
     deviate(distance, ulp_on(facet));
   }

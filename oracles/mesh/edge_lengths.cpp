@@ -33,7 +33,8 @@ OracleReport check(const TetComplex& complex, AngleScope scope, const char* name
         char times[32];
         std::snprintf(times, sizeof times, "%.6g", here);
         report.fail("edge " + complex.vertex_name(tet[j]) + " - " + complex.vertex_name(tet[i]) +
-                    " is " + times + " times as long as " + option + " allows");
+                        " is " + times + " times as long as " + option + " allows",
+                    complex.edge_site(tet[j], tet[i]));
       }
     }
   }

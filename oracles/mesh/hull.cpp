@@ -81,7 +81,8 @@ void Hull::check_edges() {
         std::equal_range(sides.begin(), sides.end(), Side{side.to, side.from, 0, 0});
     if (high - low != 1) {
       report_.fail("boundary edge " + complex_.vertex_name(side.from) + " - " +
-                   complex_.vertex_name(side.to) + " does not have one face on each side");
+                       complex_.vertex_name(side.to) + " does not have one face on each side",
+                   complex_.edge_site(side.from, side.to));
       continue;
     }
     components -= joined.unite(side.face, low->face) ? 1 : 0;
@@ -113,9 +114,11 @@ void Hull::check_edge(const Side& side, const Side& other) {
     if (height <= allowed_) return;
   }
   report_.fail("the outer boundary is not convex at edge " + complex_.vertex_name(a) + " - " +
-               complex_.vertex_name(b));
+                   complex_.vertex_name(b),
+               complex_.edge_site(a, b));
 }
 
+#ifdef TETPROOF_SECOND_OPINIONS
 double Hull::area() const {
   double sum = 0;
   for (const Face& f : faces_) {
@@ -125,7 +128,6 @@ double Hull::area() const {
   return sum;
 }
 
-#ifdef TETPROOF_SECOND_OPINIONS
 void Hull::check_volume() {
   const ExactSum sum = sum_of_volumes6(complex_, neighbours_, {});
   std::vector<Index> corners;

@@ -62,7 +62,9 @@ OracleReport check_kept(const Polyhedron& input, const MeshFile& mesh, std::span
       continue;
     }
     ++split;
-    if (!is_long) report.fail("triangle " + std::to_string(t) + " is not a face of the mesh");
+    if (is_long) continue;
+    report.fail("triangle " + std::to_string(t) + " is not a face of the mesh",
+                {Site::Kind::input_triangle, {static_cast<Index>(t), 0, 0}});
   }
   std::vector<Position> added;
   std::ranges::set_difference(used(made), used(given), std::back_inserter(added));

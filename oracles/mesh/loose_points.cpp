@@ -74,7 +74,8 @@ OracleReport check_loose_points(const Polyhedron& input, const MeshFile& mesh,
       ++on_surface;
     } else {
       report.fail("input vertex " + std::to_string(missing[n]) + " is in " +
-                  complex.tet_name(around[n].front()) + ", and no vertex");
+                      complex.tet_name(around[n].front()) + ", and no vertex",
+                  {Site::Kind::input_vertex, {missing[n], 0, 0}});
     }
   }
   if (outside > 0) report.figures.emplace_back("outside", static_cast<double>(outside));

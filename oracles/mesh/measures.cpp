@@ -113,10 +113,11 @@ OracleReport check_interior(const TetComplex& complex, const Neighbours& neighbo
     ++report.checked;
     inside += complex.inside[t];
     if (parity == -1) {
-      report.fail(complex.tet_name(t) + " has its centroid on the surface");
+      report.fail(complex.tet_name(t) + " has its centroid on the surface", complex.tet_site(t));
     } else if (parity != complex.inside[t]) {
       report.fail(complex.tet_name(t) + " is called " + (complex.inside[t] ? "inside" : "outside") +
-                  " but its centroid is not");
+                      " but its centroid is not",
+                  complex.tet_site(t));
     }
   }
   report.figures.emplace_back("inside", inside);

@@ -120,13 +120,15 @@ OracleReport Regions::check_strays(double allowed, const std::vector<std::uint8_
   for (const std::size_t t : strays_) {
     if (smallest_altitude(*complex_.points, complex_.tetrahedra[t]) <= allowed) continue;
     report.fail(complex_.tet_name(t) + " is not on the side of the surface where the rest of " +
-                "region " + std::to_string(regions_[t]) + " lies");
+                    "region " + std::to_string(regions_[t]) + " lies",
+                complex_.tet_site(t));
   }
   for (std::size_t t = 0; t < called.size(); ++t) {
     if (called[t] == complex_.inside[t]) continue;
-    report.fail(complex_.tet_name(t) + (called[t] != 0
-                                            ? " is called inside, and its region is not"
-                                            : " is called outside, and its region is inside"));
+    report.fail(
+        complex_.tet_name(t) + (called[t] != 0 ? " is called inside, and its region is not"
+                                               : " is called outside, and its region is inside"),
+        complex_.tet_site(t));
   }
   report.figures.emplace_back("regions", static_cast<double>(count_));
   report.figures.emplace_back("slivers along the surface", static_cast<double>(strays_.size()));

@@ -21,6 +21,17 @@ struct TetComplex {
   std::string vertex_name(Index v) const;
   std::string tet_name(std::size_t t) const;
   std::string face_name(const Face& face) const;
+  Site vertex_site(Index v) const { return {Site::Kind::vertex, {v - first_vertex, 0, 0}}; }
+  Site edge_site(Index v, Index w) const {
+    return {Site::Kind::edge, {v - first_vertex, w - first_vertex, 0}};
+  }
+  Site face_site(const Face& face) const {
+    return {Site::Kind::face,
+            {face[0] - first_vertex, face[1] - first_vertex, face[2] - first_vertex}};
+  }
+  static Site tet_site(std::size_t t) {
+    return {Site::Kind::tetrahedron, {static_cast<Index>(t), 0, 0}};
+  }
 };
 
 // Across each face: tetrahedron * 4 + face, or kNone.

@@ -16,9 +16,38 @@ namespace tetproof::oracles {
 inline constexpr const char* kNoSecondOpinion =
     "CGAL was not asked: built without second opinions (TETPROOF_SECOND_OPINIONS)";
 
+// What only other libraries decide.
+inline constexpr const char* kInputNotAsked =
+    "that the surface does not intersect itself (CGAL was not asked)";
+
+// Where a violation is, by numbers of the mesh as given, or of the input.
+struct Site {
+  enum class Kind : std::uint8_t {
+    vertex,
+    edge,  // its two vertices
+    face,  // its three vertices
+    tetrahedron,
+    listed_triangle,
+    input_vertex,
+    input_edge,  // its two vertices
+    input_triangle
+  };
+  Kind kind;
+  std::array<std::uint32_t, 3> numbers;
+};
+struct SiteKind {
+  const char* name;
+  std::size_t numbers;  // of each place
+};
+inline constexpr SiteKind kSiteKinds[] = {
+    {"vertices", 1},         {"edges", 2},          {"faces", 3},       {"tetrahedra", 1},
+    {"listed triangles", 1}, {"input vertices", 1}, {"input edges", 2}, {"input triangles", 1}};
+
 struct OracleReport {
   explicit OracleReport(std::string oracle_name, std::string what = {})
       : name(std::move(oracle_name)), checked_what(std::move(what)) {}
+
+  static constexpr std::size_t kMostSites = 1'000'000;
 
   std::string name;
   std::string checked_what;  // e.g. "tetrahedra"
@@ -27,7 +56,11 @@ struct OracleReport {
   bool promised = true;    // false: only counted and measured, because nobody promised it
   bool undecided = false;  // its input does not tell whether the violations are real
   std::vector<std::string> findings;  // the first violations, each naming its element
-  std::vector<std::string> notes;     // no violations, but worth knowing
+  // All that are known, without a word: up to kMostSites. Some violations are nowhere, and those of
+  // a facet are at all its triangles.
+  std::vector<Site> sites;
+  std::vector<std::array<double, 3>> points;  // the same of what is no element, in input units
+  std::vector<std::string> notes;             // no violations, but worth knowing
   std::vector<std::pair<std::string, double>> figures;
   // Counts of angles, 15 degrees a bin.
   std::vector<std::pair<std::string, std::array<std::uint64_t, 12>>> histograms;
@@ -37,11 +70,24 @@ struct OracleReport {
     ++violations;
     if (findings.size() < 5) findings.push_back(finding);
   }
+  void fail(const std::string& finding, const Site& site) {
+    fail(finding);
+    add_site(site);
+  }
+  void fail_at(const std::array<double, 3>& point, const std::string& finding) {
+    fail(finding);
+    points.push_back(point);
+  }
+  void add_site(const Site& site) {
+    if (sites.size() < kMostSites) sites.push_back(site);
+  }
   // What failed is left to its figures, because it was not promised.
   void only_count() {
     promised = false;
     violations = 0;
     findings.clear();
+    sites.clear();
+    points.clear();
   }
   // Nothing if this oracle has no such figure.
   std::optional<double> figure(std::string_view figure_name) const;

@@ -4,6 +4,11 @@
 
 namespace tetproof::oracles {
 
+Stage stage_of(const Promise& promised, bool recorded) {
+  if (promised.approximate) return Stage::refined;
+  return !recorded || promised.task == Task::cdt ? Stage::final : Stage::both;
+}
+
 void conclude(double diagonal, VerifyReport& report) {
   report.deviation_share = diagonal > 0 ? report.deviation / diagonal : 0;
   if (report.any_failed()) {

@@ -32,6 +32,10 @@ struct VerifyOptions {
   std::function<void(const OracleReport&)> progress = nullptr;
 };
 
+// Every promise is checked, whether the record has its sections or not. A file alone is taken for a
+// final mesh unless the promise says otherwise.
+Stage stage_of(const Promise& promised, bool recorded);
+
 // A deviation of so many ulp is that of rounding.
 inline constexpr double kRoundedUlps = 4;
 
