@@ -1,8 +1,9 @@
-"""Builds the module of the Python package with CMake; everything else is in pyproject.toml."""
+"""Builds the modules of the Python package with CMake; everything else is in pyproject.toml."""
 import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ import pybind11
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
+TARGETS = {"tetproof._core": "tetproof_core", "tetproof._oracles": "tetproof_python_oracles"}
 ROOT = pathlib.Path(__file__).resolve().parent
 
 
@@ -24,13 +26,18 @@ class CMakeBuild(build_ext):
         # Another folder may be kept, so that not everything is compiled again.
         build = os.environ.get("TETPROOF_PYTHON_BUILD", os.path.join(os.path.abspath(self.build_temp), "cmake"))
         ninja = ["-G", "Ninja"] if not os.path.exists(os.path.join(build, "CMakeCache.txt")) else []
+        # What a wheel takes along lies beside the modules, which look there for libraries.
+        along = os.environ.get("TETPROOF_PYTHON_ALONG")
+        if along:
+            shutil.copytree(along, target / "along", dirs_exist_ok=True)
         # Read together, the files of a target take the compiler a third of the time.
         subprocess.run(["cmake", *ninja, "-S", str(ROOT), "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                        "-DCMAKE_SKIP_RPATH=ON", "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
-                        "-DTETPROOF_PYTHON=%s" % target, "-DPython3_EXECUTABLE=%s" % sys.executable,
+                        "-DCMAKE_SKIP_RPATH=ON", "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_SECOND_OPINIONS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
+                        "-DTETPROOF_PYTHON=%s" % target, "-DTETPROOF_PYTHON_ALONG=%s" % ("ON" if along else "OFF"),
+                        "-DPython3_EXECUTABLE=%s" % sys.executable,
                         "-Dpybind11_DIR=%s" % pybind11.get_cmake_dir(), *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
                        check=True)
-        subprocess.run(["cmake", "--build", build, "--parallel", "2", "--target", "tetproof_core"], check=True)
+        subprocess.run(["cmake", "--build", build, "--parallel", "2", "--target", TARGETS[extension.name]], check=True)
 
 
-setup(version=version(), ext_modules=[Extension("tetproof._core", sources=[])], cmdclass={"build_ext": CMakeBuild})
+setup(version=version(), ext_modules=[Extension(name, sources=[]) for name in TARGETS], cmdclass={"build_ext": CMakeBuild})

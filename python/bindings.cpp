@@ -1,11 +1,8 @@
 // The library for Python, without comfort: arrays in, tuples of arrays out.
 // python/tetproof/__init__.py makes it comfortable.
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <chrono>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <optional>
@@ -17,62 +14,14 @@
 #include "mesher/delmesher/option_table.h"
 #include "mesher/delmesher_files.h"
 #include "mesher/delmesher_plane.h"
+#include "python/arrays.h"
 
 namespace py = pybind11;
 
 namespace {
 
 using namespace delmesher;
-
-template <class T>
-using Array = py::array_t<T, py::array::c_style>;
-
-// An array that owns what the vector owned.
-template <class T>
-py::array taken(std::vector<T>&& values) {
-  auto* owner = new std::vector<T>(std::move(values));
-  const py::capsule free(owner, [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return Array<T>({static_cast<py::ssize_t>(owner->size())}, owner->data(), free);
-}
-
-template <class T, std::size_t N>
-py::array taken(std::vector<std::array<T, N>>&& rows) {
-  auto* owner = new std::vector<std::array<T, N>>(std::move(rows));
-  const py::capsule free(owner,
-                         [](void* p) { delete static_cast<std::vector<std::array<T, N>>*>(p); });
-  return Array<T>({static_cast<py::ssize_t>(owner->size()), static_cast<py::ssize_t>(N)},
-                  owner->empty() ? nullptr : owner->front().data(), free);
-}
-
-template <class T, std::size_t N>
-std::vector<std::array<T, N>> rows_of(const Array<T>& array, const char* name) {
-  if (array.ndim() != 2 || array.shape(1) != static_cast<py::ssize_t>(N)) {
-    throw py::value_error(std::string(name) + " must have shape (n, " + std::to_string(N) + ")");
-  }
-  std::vector<std::array<T, N>> rows(static_cast<std::size_t>(array.shape(0)));
-  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof rows[0]);
-  return rows;
-}
-
-template <class T>
-std::vector<T> values_of(const Array<T>& array, const char* name) {
-  if (array.ndim() != 1) throw py::value_error(std::string(name) + " must have one dimension");
-  return {array.data(), array.data() + array.size()};
-}
-
-// A number for each cell, if there are any.
-using Labels = std::optional<Array<std::int32_t>>;
-
-std::vector<std::int32_t> labels_of(const Labels& labels, const char* name, std::size_t cells,
-                                    const char* cell_name) {
-  if (!labels) return {};
-  std::vector<std::int32_t> values = values_of(*labels, name);
-  if (values.size() != cells) {
-    throw py::value_error(std::to_string(values.size()) + " " + name + " for " +
-                          std::to_string(cells) + " " + cell_name);
-  }
-  return values;
-}
+using namespace tetproof_python;
 
 Surface surface_of(const Array<double>& points, const Array<std::uint32_t>& triangles,
                    const Labels& labels) {

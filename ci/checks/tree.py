@@ -70,7 +70,7 @@ FOLDERS = {
     "reports": ("oracles",),
     "property_tests": ("oracles", "mesher"),
     "fuzz": ("property_tests", "oracles", "corpus", "mesher"),
-    "python": (),
+    "python": ("oracles", "reports"),
     "ci": (),
 }
 

@@ -14,11 +14,12 @@ from ._jobs import (RepairedPlane, cdt, check, check_plane, improve, label_by_an
 from ._meshes import Mesh, PlaneMesh, TenNodes
 from ._runs import Error, Interrupted, InvalidMesh, InvalidSurface, LimitReached, PlaneReport, Progress as Progress, Report
 from ._surfaces import Defect, Face, RegionPoint, Repaired, Surface
+from ._verdicts import Verdict, measure, verify
 
 __version__ = _core.version
 __all__ = ["Defect", "Error", "Face", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh", "PlaneReport",
-           "RegionPoint", "Repaired", "RepairedPlane", "Report", "Surface", "TenNodes", "cdt", "check", "check_plane", "improve", "label_by_angle", "mesh", "plane",
-           "read", "read_mesh", "remesh", "repair", "repair_plane", "write"]
+           "RegionPoint", "Repaired", "RepairedPlane", "Report", "Surface", "TenNodes", "Verdict", "cdt", "check", "check_plane", "improve",
+           "label_by_angle", "measure", "mesh", "plane", "read", "read_mesh", "remesh", "repair", "repair_plane", "verify", "write"]
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # what is pickled, and what help says, do not know of the files

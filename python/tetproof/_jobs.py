@@ -346,7 +346,8 @@ def write(path: "Union[str, os.PathLike[str]]", mesh: Union[Mesh, Surface], name
     if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.path.dirname(os.fspath(path)))
     if hasattr(mesh, "tetrahedra"):
-        lost = _core.write_mesh(os.fspath(path), _fields(mesh), called, _called(mesh.region_names), order, ascii, msh == "2.2")
+        solid: Any = mesh
+        lost = _core.write_mesh(os.fspath(path), _fields(solid), called, _called(solid.region_names), order, ascii, msh == "2.2")
     elif hasattr(mesh, "triangles"):
         lost = _core.write_surface(os.fspath(path), *_surface(mesh, None, None), called)
     else:

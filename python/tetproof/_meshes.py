@@ -1,11 +1,11 @@
 """Meshes, of tetrahedra and of triangles in the plane."""
 import dataclasses
 import os
-from typing import Any, Dict, List, NamedTuple, Tuple, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._surfaces import Array, _indices, _line, _points
+from ._surfaces import Array, _html, _indices, _line, _points
 
 
 class TenNodes(NamedTuple):
@@ -59,6 +59,63 @@ class Mesh:
         angle = "smallest dihedral angle %.2f degrees" % refined["min_dihedral"] if refined else ""
         return _line("Mesh", (len(self.points), "points"), (len(self.tetrahedra), "tetrahedra"), (len(self.boundary), "boundary triangles"),
                      more=angle)
+
+    def _repr_html_(self) -> str:
+        rows: List[Tuple[str, Any]] = [("points", len(self.points)), ("tetrahedra", len(self.tetrahedra)), ("boundary triangles", len(self.boundary))]
+        rows += [("region %d" % number, name) for number, name in sorted(self.region_names.items())][:20]
+        rows += [("label %d" % number, name) for number, name in sorted(self.names.items())][:20]
+        final = self.stats.get("final", {})
+        rows += [(name, "%.4g%s" % (final[key], unit)) for key, name, unit in (
+            ("min_dihedral", "smallest dihedral angle", "\u00b0"), ("max_dihedral", "largest dihedral angle", "\u00b0"),
+            ("min_gamma", "smallest gamma", ""), ("mean_gamma", "mean gamma", "")) if key in final]
+        return _html("Mesh", rows + [("warning", line) for line in self.warnings])
+
+    def smallest_dihedrals(self) -> Array:
+        """(t,) float64: the smallest dihedral angle of each tetrahedron, in degrees, in doubles."""
+        corners = self.points[self.tetrahedra]
+        normals = [np.cross(corners[:, b] - corners[:, a], corners[:, c] - corners[:, a])  # outwards
+                   for a, b, c in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))]
+        with np.errstate(invalid="ignore", divide="ignore"):  # flat ones have an angle of 0 somewhere, or none at all
+            normals = [normal / np.linalg.norm(normal, axis=1)[:, None] for normal in normals]
+        cosines = [-np.einsum("ij,ij->i", normals[i], normals[j]) for i in range(4) for j in range(i)]
+        angles: Array = np.degrees(np.arccos(np.clip(np.max(cosines, axis=0), -1, 1)))
+        return np.nan_to_num(angles)
+
+    def plot(self, *, cut: "Optional[Sequence[float]]" = (1, 0, 0), show: bool = True) -> Any:
+        """Show the inside, cut open, each tetrahedron coloured by its smallest dihedral angle, by pyvista.
+
+        Parameters
+        ----------
+        cut : (3,) float, optional
+            The normal of a plane through the middle: tetrahedra whose centroids are in front of it are left out. None: all are there.
+        show : bool
+            Open the window, or the picture in a notebook.
+
+        Returns
+        -------
+        pyvista.Plotter
+
+        Raises
+        ------
+        ImportError
+            There is no pyvista.
+        """
+        import pyvista
+
+        kept = np.array(self.inside, bool)
+        if cut is not None:
+            normal = np.asarray(cut, np.float64)
+            if normal.shape != (3,) or not np.isfinite(normal).all() or not normal.any():
+                raise ValueError("cut must be three numbers that are not all 0")
+            middle = (self.points.min(axis=0) + self.points.max(axis=0)) / 2
+            kept &= (self.points[self.tetrahedra].mean(axis=1) - middle) @ normal <= 0
+        grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: self.tetrahedra[kept]}, self.points)
+        grid.cell_data["smallest dihedral angle, degrees"] = self.smallest_dihedrals()[kept]
+        plotter = pyvista.Plotter()
+        plotter.add_mesh(grid, scalars="smallest dihedral angle, degrees", clim=[0, 60], cmap="viridis", show_edges=True)
+        if show:
+            plotter.show()
+        return plotter
 
     def boundary_regions(self) -> Array:
         """(b, 2) int32: the regions behind each boundary triangle, from where it is seen clockwise, and in front; 0 where there is none."""
@@ -188,7 +245,7 @@ def _tetrahedra(given: Any) -> Mesh:
     raise TypeError("a mesh of tetrahedra is expected; `read_mesh` makes one of a file")
 
 
-def _fields(mesh: Mesh) -> Dict[str, Array]:
+def _fields(mesh: Mesh) -> Dict[str, Any]:
     count, triangles = len(mesh.tetrahedra), len(mesh.boundary)
     return {"points": _points(mesh.points), "tetrahedra": _indices(mesh.tetrahedra, "tetrahedra"),
             "inside": np.ascontiguousarray(np.broadcast_to(mesh.inside, (count,)), np.uint8),

@@ -227,7 +227,7 @@ class _Bar:
         self.bar: Any = None
         self.stream = sys.stdout if "ipykernel" in sys.modules else sys.stderr  # notebooks show stderr in red
         try:
-            from tqdm.auto import tqdm  # type: ignore
+            from tqdm.auto import tqdm
 
             # In a notebook without widgets this is what fails.
             self.bar = tqdm(total=1, bar_format="{desc:<10}{percentage:3.0f}%|{bar}| [{elapsed}<{remaining}{postfix}]")

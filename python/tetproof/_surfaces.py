@@ -1,7 +1,8 @@
 """Surfaces, and arrays as the module `_core` takes them."""
 import dataclasses
+import html
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -17,6 +18,13 @@ else:
 
 def _line(name: str, *counts: Tuple[int, str], more: str = "") -> str:
     return "%s(%s)" % (name, ", ".join(["%d %s" % pair for pair in counts] + ([more] if more else [])))
+
+
+def _html(title: str, rows: Iterable[Tuple[str, Any]]) -> str:
+    """What a notebook shows: a table of names and values."""
+    cells = "".join('<tr><td style="text-align:left">%s</td><td style="text-align:left">%s</td></tr>' % (html.escape(name), html.escape(str(value)))
+                    for name, value in rows)
+    return "<b>%s</b><table>%s</table>" % (html.escape(title), cells)
 
 
 def _indices(values: Any, name: str) -> Array:
@@ -106,6 +114,48 @@ class Surface:
     def __repr__(self) -> str:
         return _line(type(self).__name__, (len(self.points), "points"), (len(self.triangles), "triangles"),
                      (len(np.unique(self.labels)), "labels"))
+
+    def _repr_html_(self) -> str:
+        rows: List[Tuple[str, Any]] = [("points", len(self.points)), ("triangles", len(self.triangles))]
+        rows += [("label %d" % label, "%d triangles%s" % (count, ", " + self.names[label] if label in self.names else ""))
+                 for label, count in zip(*(found.tolist() for found in np.unique(self.labels, return_counts=True)))][:20]
+        return _html(type(self).__name__, rows + [("warning", line) for line in self.warnings])
+
+    def plot(self, defects: Any = None, *, show: bool = True) -> Any:
+        """Show the surface, with its defects in red, by pyvista.
+
+        Parameters
+        ----------
+        defects : Report or InvalidSurface, optional
+            Whose `places` to show; else `check` finds them.
+        show
+            As in `Mesh.plot`, like what comes back.
+        """
+        import pyvista
+
+        from ._jobs import check
+
+        places = (check(self) if defects is None else defects).places
+        plotter = pyvista.Plotter()
+        sound = np.ones(len(self.triangles), bool)
+        for kind, found in places.items():
+            if not len(found):
+                continue
+            if kind.endswith(" edge") or kind == "inconsistent orientation":
+                lines = pyvista.PolyData(self.points, lines=np.hstack([np.full((len(found), 1), 2), found]).ravel())
+                plotter.add_mesh(lines, color="red", line_width=5, label=kind)
+            elif kind == "non-manifold vertex":
+                plotter.add_mesh(pyvista.PolyData(self.points[found[:, 0]]), color="red", point_size=12, label=kind)
+            elif "triangle" in kind or kind == "self-intersection":
+                sound[np.unique(found)] = False
+        drawable = (self.triangles < len(self.points)).all(axis=1) & (self.triangles >= 0).all(axis=1)
+        for which, color in ((sound & drawable, "lightgray"), (~sound & drawable, "red")):
+            if which.any():
+                faces = np.hstack([np.full((int(which.sum()), 1), 3), self.triangles[which]]).ravel()
+                plotter.add_mesh(pyvista.PolyData(self.points, faces), color=color, show_edges=True)
+        if show:
+            plotter.show()
+        return plotter
 
     def faces(self) -> List[Face]:
         """What the triangles of each label are, by label."""
