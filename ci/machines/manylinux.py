@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""What a module for Python asks of a Linux machine, and the tag of a wheel that says so (PEP 600: manylinux_2_X_MACHINE).
-Usage: manylinux.py MODULE     prints the tag; exit 1, and what is in the way, if there is none
+"""What modules for Python ask of a Linux machine, and the tag of a wheel that says so (PEP 600: manylinux_2_X_MACHINE).
+Usage: manylinux.py FILE...     modules and the libraries that the wheel takes along; prints the tag; exit 1, and what is in the way, if there is none
 
-The rules are those of auditwheel's policies from manylinux_2_17 on, for what a module of ours may need: the C library, and libgcc and
-zlib with symbols that came long before. Everything else has to be in the module."""
+The rules are those of auditwheel's policies from manylinux_2_17 on, for what modules of ours may need: the C library, and libgcc and
+zlib with symbols that came long before. Everything else has to be in the modules, or beside them (setup.py)."""
+import os
 import re
 import subprocess
 import sys
@@ -42,15 +43,16 @@ def required_versions(text):
     return found
 
 
-def tag(header, dynamic, versions):
-    """The tag, from what `readelf -h`, `-d` and `-V` print."""
+def tag(header, dynamic, versions, along=()):
+    """The tag, from what `readelf -h`, `-d` and `-V` print; `along`: names of libraries in the wheel."""
     machine = re.search(r"Machine:\s+(.*\S)", header).group(1)
     if machine not in MACHINES:
         raise NotPortable("a machine without wheels: " + machine)
     needed = set(re.findall(r"\(NEEDED\).*\[(.*)\]", dynamic))
-    if needed - LIBRARIES:
-        raise NotPortable("it needs " + ", ".join(sorted(needed - LIBRARIES)))
-    if re.search(r"\((RPATH|RUNPATH)\)", dynamic):
+    missing = needed - LIBRARIES - set(along)
+    if missing:
+        raise NotPortable("it needs " + ", ".join(sorted(missing)))
+    if set(re.findall(r"\((?:RPATH|RUNPATH)\).*\[(.*)\]", dynamic)) - {"$ORIGIN/along"}:
         raise NotPortable("it names folders of this machine")
     oldest = OLDEST
     for library, version in required_versions(versions):
@@ -65,13 +67,20 @@ def tag(header, dynamic, versions):
     return "manylinux_%d_%d_%s" % (*oldest, MACHINES[machine])
 
 
-def tag_of(module):
-    return tag(*(subprocess.run(["readelf", "-W", option, module], check=True, capture_output=True, text=True,
-                                env={"PATH": "/usr/bin:/bin", "LC_ALL": "C"}).stdout for option in ("-h", "-d", "-V")))
+def tag_of(*files):
+    """That of the file which asks for most."""
+    along, tags = {os.path.basename(name) for name in files}, []
+    for name in files:
+        try:
+            tags.append(tag(*(subprocess.run(["readelf", "-W", option, name], check=True, capture_output=True, text=True,
+                                             env={"PATH": "/usr/bin:/bin", "LC_ALL": "C"}).stdout for option in ("-h", "-d", "-V")), along))
+        except NotPortable as error:
+            raise NotPortable("%s: %s" % (name, error)) from error
+    return max(tags, key=lambda found: numbers(".".join(found.split("_")[1:3])))
 
 
 if __name__ == "__main__":
     try:
-        print(tag_of(sys.argv[1]))
+        print(tag_of(*sys.argv[1:]))
     except NotPortable as error:
-        sys.exit("%s: %s" % (sys.argv[1], error))
+        sys.exit(str(error))

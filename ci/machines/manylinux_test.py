@@ -46,6 +46,13 @@ class Rules(unittest.TestCase):
         with self.assertRaisesRegex(manylinux.NotPortable, "ZLIB_1.2.12 of libz.so.1"):
             manylinux.tag(X86, needed("libz.so.1"), needs("libz.so.1", "ZLIB_1.2.12"))
 
+    def test_a_library_that_is_taken_along(self):
+        versions = needs("libc.so.6", "GLIBC_2.20")
+        module = needed("libc.so.6", "libgmp.so.10") + " 0x1d (RUNPATH)            Library runpath: [$ORIGIN/along]\n"
+        self.assertEqual(manylinux.tag(X86, module, versions, {"libgmp.so.10"}), "manylinux_2_20_x86_64")
+        with self.assertRaisesRegex(manylinux.NotPortable, "libgmp"):
+            manylinux.tag(X86, module, versions, {"libmpfr.so.6"})
+
     def test_what_is_not_portable(self):
         for message, header, dynamic, versions in (
                 ("libgmp.so.10", X86, needed("libc.so.6", "libgmp.so.10"), ""),
