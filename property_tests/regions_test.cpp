@@ -167,6 +167,17 @@ TEST(AllRegions, WithSheets) {
   EXPECT_NE(result.warnings[0].find("1 triangles are left out"), std::string::npos);
 }
 
+// Triangles of one plane outside of all regions, hanging on a body: there is nothing to restore.
+TEST(AllRegions, WithFlatSheetsOutside) {
+  Builder builder;
+  builder.box({0, 0, 0}, {4, 4, 4});
+  builder.square({4, 0, 0}, {8, 0, 0}, {8, 4, 0}, {4, 4, 0});
+  expect_regions(builder.surface(), {64});
+  const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("2 triangles are left out"), std::string::npos);
+}
+
 TEST(AllRegions, HaveTheLabelOfTheSmallestSolidAround) {
   Builder builder;
   builder.box({0, 0, 0}, {4, 4, 4}, 7);

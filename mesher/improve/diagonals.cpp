@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -85,13 +86,15 @@ class Entry {
         stays_(as_given.edge_count(), 0),
         cavity_(state.mesh) {}
 
-  // The short ones first: they are in the way of fewer others' repairs.
-  std::vector<Diagonal> diagonals() const {
+  // The short ones first: they are in the way of fewer others' repairs. Sheets outside of all
+  // regions have no faces, and so no diagonals.
+  std::vector<Diagonal> diagonals(const std::set<FacetId>& facets_with_faces) const {
     std::vector<std::pair<double, Diagonal>> sorted;
     for (std::uint32_t e = 0; e < as_given_.edge_count(); ++e) {
       const auto [h, g] = as_given_.edge_half_edges(e);
       const FacetId facet = planarized_.facet_of_half_edge(h);
       if (as_given_.edge_is_flat[e] != 0 || facet != planarized_.facet_of_half_edge(g)) continue;
+      if (!facets_with_faces.contains(facet)) continue;
       const std::array<VertexId, 2> end = as_given_.edge_vertices(e);
       sorted.emplace_back(
           distance(state_.points().nearest(end[0]), state_.points().nearest(end[1])),
@@ -472,11 +475,13 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& plan
                                 Predicates& predicates, Control& control) {
   Goals goals = goals_of(options);
   goals.everywhere = true;
+  std::set<FacetId> facets_with_faces;
+  for (const SurfaceFace& face : mesh.boundary) facets_with_faces.insert(face.facet);
   State state(numbered(std::move(mesh), points), &planarized, given, points, predicates, goals);
   std::vector<VertexId> number(points.size(), kNone);
   for (VertexId v = 0; v < state.mesh.vertices(); ++v) number[state.point(v)] = v;
   Entry entry(state, number, planarized, as_given, predicates, control);
-  std::vector<Diagonal> missing = entry.diagonals();
+  std::vector<Diagonal> missing = entry.diagonals(facets_with_faces);
   DiagonalsResult result;
   result.diagonals = missing.size();
   // Where one finds no place, others may make some.
