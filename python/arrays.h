@@ -53,12 +53,15 @@ std::vector<T> values_of(const Array<T>& array, const char* name) {
 }
 
 // A number for each cell, if there are any.
-using Labels = std::optional<Array<std::int32_t>>;
+template <class T>
+using PerCell = std::optional<Array<T>>;
+using Labels = PerCell<std::int32_t>;
 
-inline std::vector<std::int32_t> labels_of(const Labels& labels, const char* name,
-                                           std::size_t cells, const char* cell_name) {
-  if (!labels) return {};
-  std::vector<std::int32_t> values = values_of(*labels, name);
+template <class T>
+std::vector<T> numbers_of(const PerCell<T>& numbers, const char* name, std::size_t cells,
+                          const char* cell_name) {
+  if (!numbers) return {};
+  std::vector<T> values = values_of(*numbers, name);
   if (values.size() != cells) {
     throw py::value_error(std::to_string(values.size()) + " " + name + " for " +
                           std::to_string(cells) + " " + cell_name);

@@ -28,7 +28,7 @@ Surface surface_of(const Array<double>& points, const Array<std::uint32_t>& tria
   Surface surface;
   surface.vertices = rows_of<double, 3>(points, "points");
   surface.triangles = rows_of<std::uint32_t, 3>(triangles, "triangles");
-  surface.labels = labels_of(labels, "labels", surface.triangles.size(), "triangles");
+  surface.labels = numbers_of(labels, "labels", surface.triangles.size(), "triangles");
   return surface;
 }
 
@@ -395,7 +395,7 @@ PlanarGraph graph_of(const Array<double>& points, const Array<std::uint32_t>& se
   PlanarGraph graph;
   graph.vertices = rows_of<double, 2>(points, "points");
   graph.segments = rows_of<std::uint32_t, 2>(segments, "segments");
-  graph.markers = labels_of(markers, "markers", graph.segments.size(), "segments");
+  graph.markers = numbers_of(markers, "markers", graph.segments.size(), "segments");
   return graph;
 }
 

@@ -27,7 +27,7 @@ Polyhedron polyhedron_of(const Array<double>& points, const Array<std::uint32_t>
   Polyhedron surface;
   surface.vertices = rows_of<double, 3>(points, "points");
   surface.triangles = rows_of<std::uint32_t, 3>(triangles, "triangles");
-  surface.labels = labels_of(labels, "labels", surface.triangles.size(), "triangles");
+  surface.labels = numbers_of(labels, "labels", surface.triangles.size(), "triangles");
   surface.names_read = !names.empty();
   for (const auto& [number, name] : names) surface.names[{2, number}] = name;
   return surface;
@@ -36,13 +36,7 @@ Polyhedron polyhedron_of(const Array<double>& points, const Array<std::uint32_t>
 // What is not there is None.
 template <class T>
 std::vector<T> each(const py::dict& d, const char* key, std::size_t cells, const char* cell_name) {
-  if (d[key].is_none()) return {};
-  std::vector<T> values = values_of(py::cast<Array<T>>(d[key]), key);
-  if (values.size() != cells) {
-    throw py::value_error(std::to_string(values.size()) + " " + key + " for " +
-                          std::to_string(cells) + " " + cell_name);
-  }
-  return values;
+  return numbers_of(py::cast<PerCell<T>>(d[key]), key, cells, cell_name);
 }
 
 MeshFile mesh_of(const py::dict& d) {

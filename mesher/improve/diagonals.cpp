@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -88,13 +87,13 @@ class Entry {
 
   // The short ones first: they are in the way of fewer others' repairs. Sheets outside of all
   // regions have no faces, and so no diagonals.
-  std::vector<Diagonal> diagonals(const std::set<FacetId>& facets_with_faces) const {
+  std::vector<Diagonal> diagonals(std::span<const std::uint8_t> facet_has_faces) const {
     std::vector<std::pair<double, Diagonal>> sorted;
     for (std::uint32_t e = 0; e < as_given_.edge_count(); ++e) {
       const auto [h, g] = as_given_.edge_half_edges(e);
       const FacetId facet = planarized_.facet_of_half_edge(h);
       if (as_given_.edge_is_flat[e] != 0 || facet != planarized_.facet_of_half_edge(g)) continue;
-      if (!facets_with_faces.contains(facet)) continue;
+      if (facet_has_faces[facet] == 0) continue;
       const std::array<VertexId, 2> end = as_given_.edge_vertices(e);
       sorted.emplace_back(
           distance(state_.points().nearest(end[0]), state_.points().nearest(end[1])),
@@ -475,13 +474,13 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& plan
                                 Predicates& predicates, Control& control) {
   Goals goals = goals_of(options);
   goals.everywhere = true;
-  std::set<FacetId> facets_with_faces;
-  for (const SurfaceFace& face : mesh.boundary) facets_with_faces.insert(face.facet);
+  std::vector<std::uint8_t> facet_has_faces(planarized.facet_axis.size(), 0);
+  for (const SurfaceFace& face : mesh.boundary) facet_has_faces[face.facet] = 1;
   State state(numbered(std::move(mesh), points), &planarized, given, points, predicates, goals);
   std::vector<VertexId> number(points.size(), kNone);
   for (VertexId v = 0; v < state.mesh.vertices(); ++v) number[state.point(v)] = v;
   Entry entry(state, number, planarized, as_given, predicates, control);
-  std::vector<Diagonal> missing = entry.diagonals(facets_with_faces);
+  std::vector<Diagonal> missing = entry.diagonals(facet_has_faces);
   DiagonalsResult result;
   result.diagonals = missing.size();
   // Where one finds no place, others may make some.
