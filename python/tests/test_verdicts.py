@@ -214,9 +214,13 @@ def test_measure(mesh):
 
 def test_interrupted(mesh):
     fine = tetproof.mesh(*CUBE, max_edge=0.05)
-    timer = threading.Timer(0.2, signal.raise_signal, (signal.SIGINT,))
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        for _ in range(100):
-            tetproof.verify(CUBE, fine)
-    timer.join()
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # what runs in the background ignores the signal
+    try:
+        timer = threading.Timer(0.2, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            for _ in range(100):
+                tetproof.verify(CUBE, fine)
+        timer.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
