@@ -46,7 +46,7 @@ bool leniencies_within_bounds();
 
 // If the environment's TETPROOF_COUNTERS names a folder, every process keeps its counters in a file
 // of its own there at all times, so that they survive every way to end. Its lines are "NAME COUNT
-// BOUND", the first two "executed" and "judged" with bound 1. ci/fuzz adds them up. If
+// BOUND", the first two "executed" and "judged" with bound 1. ci/campaigns/fuzz adds them up. If
 // TETPROOF_COUNTERS_AFTER is a number, so many inputs at the beginning of a process are not
 // counted: the inputs that a campaign begins with were chosen because they are special.
 

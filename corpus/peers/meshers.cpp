@@ -411,7 +411,7 @@ std::string why_not_at_hand(const std::string& name, const MesherPrograms& progr
   }
   if (peer->package != nullptr && package_version(*peer, programs).empty()) {
     return "python3 (or $" + std::string(peer->variable) + ") has no package " + peer->package +
-           "; ci/peers makes an environment that has it";
+           "; ci/campaigns/peers makes an environment that has it";
   }
   if (peer->feature != nullptr && !has_feature(*peer, programs)) {
     return std::string("this build of ") + peer->program + " is without " + peer->feature;

@@ -1,4 +1,4 @@
-"""What the scripts have in common that call meshers by their Python packages (ci/peers installs them).
+"""What the scripts have in common that call meshers by their Python packages (ci/campaigns/peers installs them).
 
 A script is called as PYTHON SCRIPT SWITCHES INPUT OUTPUT.vtu STATS.json, as the programs of corpus/peers/programs are, with `tetproof` in
 $TETPROOF; with --version alone it tells the package and its version, without loading it. Arrays go to the mesher and come from it in
