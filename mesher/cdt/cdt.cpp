@@ -69,7 +69,7 @@ class CdtBuilder {
     const auto facets = static_cast<FacetId>(topology_.facet_triangles.size());
     for (FacetId f = 0; f < facets; ++f) {
       control_.poll(points_.size(), static_cast<double>(f) / facets);
-      const FacetTriangles triangles = triangulator.triangulate(f);
+      const PlanarTriangulation triangles = triangulator.triangulate(f);
       if (!recovery.recover(f, triangles, found_)) return f;
       for (const auto& t : triangles.triangles) surface_.push_back({t, f});
     }

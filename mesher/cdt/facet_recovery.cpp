@@ -37,7 +37,7 @@ int FacetRecovery::side(VertexId v) {
   return side_[v];
 }
 
-bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
+bool FacetRecovery::recover(FacetId facet, const PlanarTriangulation& triangles,
                             std::vector<FaceHandle>& found) {
   frame_ = topology_.triangles[topology_.facet_triangles[facet][0]];
   next_epoch(facet_epoch_, side_mark_);
@@ -58,7 +58,7 @@ bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
 
 // The missing triangles connected to `start` through missing edges, and the border between them and
 // the triangles that are present.
-void FacetRecovery::collect_patch(const FacetTriangles& all, std::uint32_t start) {
+void FacetRecovery::collect_patch(const PlanarTriangulation& all, std::uint32_t start) {
   patch_.clear();
   patch_border_.clear();
   std::vector<std::uint32_t> queue = {start};
@@ -72,9 +72,9 @@ void FacetRecovery::collect_patch(const FacetTriangles& all, std::uint32_t start
       const std::uint32_t next = all.neighbors[queue[n]][i];
       if (next == kNone || find_edge(mesh_, chains_, a, b) != kNone) {
         patch_border_.push_back({a, b});
-      } else if (done_[next] == 0) {
-        done_[next] = 1;
-        queue.push_back(next);
+      } else if (done_[next / 3] == 0) {
+        done_[next / 3] = 1;
+        queue.push_back(next / 3);
       }
     }
   }

@@ -34,7 +34,7 @@ class FacetRecovery {
   // Makes all triangles of the facet appear. False if that failed, which the theory excludes; the
   // mesh is still consistent then. Appends to `found` for each triangle the face of the mesh
   // that it was before, or none if it was missing.
-  bool recover(FacetId facet, const FacetTriangles& triangles, std::vector<FaceHandle>& found);
+  bool recover(FacetId facet, const PlanarTriangulation& triangles, std::vector<FaceHandle>& found);
 
   const CdtCounters& counters() const { return counters_; }
 
@@ -46,7 +46,7 @@ class FacetRecovery {
   };
 
   int side(VertexId v);
-  void collect_patch(const FacetTriangles& all, std::uint32_t start);
+  void collect_patch(const PlanarTriangulation& all, std::uint32_t start);
   bool recover_patch();
   bool seed(const std::array<VertexId, 2>& edge);
   bool grow_cavity();

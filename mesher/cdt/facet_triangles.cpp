@@ -30,7 +30,7 @@ FacetTriangulator::FacetTriangulator(const CdtInput& input, const Chains& chains
   DELMESHER_CHECK(tetrahedron_[3] != kNone, "a valid surface has all of its vertices in one plane");
 }
 
-FacetTriangles FacetTriangulator::triangulate(FacetId facet) {
+PlanarTriangulation FacetTriangulator::triangulate(FacetId facet) {
   collect_vertices(facet);
   if (vertices_.size() == 3 && topology_.facet_triangles[facet].size() == 1) {
     return {{topology_.triangles[topology_.facet_triangles[facet][0]]}, {{kNone, kNone, kNone}}};
@@ -41,8 +41,12 @@ FacetTriangles FacetTriangulator::triangulate(FacetId facet) {
   PlanarTriangulation all = triangulate_planar(predicates_, plane, vertices_);
   if (flipped) {
     for (auto& t : all.triangles) std::swap(t[1], t[2]);
-    // Which side of its triangle a neighbour has in common is not asked for below.
-    for (auto& n : all.neighbors) std::swap(n[1], n[2]);
+    for (auto& n : all.neighbors) {
+      std::swap(n[1], n[2]);
+      for (std::uint32_t& side : n) {
+        if (side != kNone && side % 3 != 0) side = side / 3 * 3 + 3 - side % 3;
+      }
+    }
   }
   return restrict_to_polygon(std::move(all));
 }
@@ -110,9 +114,9 @@ bool FacetTriangulator::is_boundary(VertexId from, VertexId to) const {
   return std::binary_search(boundary_.begin(), boundary_.end(), directed(from, to));
 }
 
-FacetTriangles FacetTriangulator::restrict_to_polygon(PlanarTriangulation&& all) const {
+PlanarTriangulation FacetTriangulator::restrict_to_polygon(PlanarTriangulation&& all) const {
   std::vector<std::uint32_t> stack, number(all.triangles.size(), kNone);
-  FacetTriangles out;
+  PlanarTriangulation out;
   const auto take = [&](std::uint32_t t) {
     if (number[t] != kNone) return;
     number[t] = static_cast<std::uint32_t>(out.triangles.size());
@@ -141,7 +145,7 @@ FacetTriangles FacetTriangulator::restrict_to_polygon(PlanarTriangulation&& all)
   }
   for (auto& n : out.neighbors) {
     for (std::uint32_t& side : n) {
-      if (side != kNone) side = number[side / 3];
+      if (side != kNone) side = 3 * number[side / 3] + side % 3;
     }
   }
   return out;

@@ -11,25 +11,20 @@
 
 namespace delmesher::cdt {
 
-struct FacetTriangles {
-  std::vector<std::array<VertexId, 3>> triangles;  // counter-clockwise seen from outside the solid
-  // Across the edge opposite vertex i: triangle, or kNone at the facet's boundary.
-  std::vector<std::array<std::uint32_t, 3>> neighbors;
-};
-
 class FacetTriangulator {
  public:
   FacetTriangulator(const CdtInput& input, const Chains& chains, Predicates& predicates);
 
-  // All subsegments of the facet's boundary must be edges of the Delaunay tetrahedrization.
-  FacetTriangles triangulate(FacetId facet);
+  // Counter-clockwise seen from outside the solid; no neighbours across the facet's boundary. All
+  // subsegments of the boundary must be edges of the Delaunay tetrahedrization.
+  PlanarTriangulation triangulate(FacetId facet);
 
  private:
   void collect_vertices(FacetId facet);
   void collect_boundary(FacetId facet);
   FacetPlane plane_of(FacetId facet, bool& flipped);
   bool is_boundary(VertexId from, VertexId to) const;
-  FacetTriangles restrict_to_polygon(PlanarTriangulation&& all) const;
+  PlanarTriangulation restrict_to_polygon(PlanarTriangulation&& all) const;
 
   const CdtInput& input_;
   const SurfaceTopology& topology_;
