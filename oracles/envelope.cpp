@@ -598,6 +598,9 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);
   if (std::string why = turn_outwards(given); !why.empty()) return why;
+  if (mesh.either_orientation && extent_of(own).volume < 0) {
+    for (Face& triangle : own.triangles) std::swap(triangle[1], triangle[2]);
+  }
   const double diagonal = diagonal_of(given), allowed = share * diagonal;
   std::vector<OracleReport> oracles = {
       check_distances(given, own, allowed, exponent, report.deviation),

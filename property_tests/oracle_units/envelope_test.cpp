@@ -146,6 +146,16 @@ TEST(Envelope, ASurfaceInsideOutBoundsTheSameSolid) {
   EXPECT_EQ(failed_first(judged(cube_mesh(), inside_out)), "");
 }
 
+TEST(Envelope, FormatsWithoutOrientationMayTurnAllTetrahedra) {
+  MeshFile turned = cube_mesh();
+  for (Tet& tet : turned.tetrahedra) std::swap(tet[0], tet[1]);
+  EXPECT_EQ(failed_first(judged(turned)), "orientation");
+  turned.either_orientation = true;
+  EXPECT_EQ(failed_first(judged(turned)), "");
+  std::swap(turned.tetrahedra[0][0], turned.tetrahedra[0][1]);
+  EXPECT_NE(failed_first(judged(turned)), "");
+}
+
 TEST(Envelope, WhatEachOracleIsFor) {
   MeshFile far = cube_mesh();
   for (Position& p : far.vertices) p[0] += 1.1 * kAllowed;
