@@ -157,6 +157,92 @@ def test_meshes_of_others(mesh):
     assert "listed triangles" in tetproof.verify(surface, Meshio()).places["boundary-list"]
 
 
+def test_turned_tetrahedra_within_an_envelope(mesh):
+    points, tetrahedra = bare(mesh)
+    assert tetproof.verify(CUBE, (points, tetrahedra[:, [1, 0, 2, 3]]), envelope=1e-3).passed
+
+
+def test_cells_of_other_kinds(mesh):
+    class Tetgen:  # as a tetgen.TetGen
+        node, elem = mesh.points, mesh.tetrahedra[:, [1, 0, 2, 3]]
+
+    class File:  # as pyvista has it of a .vtu, where sides are int8
+        points = mesh.points
+        cells_dict = {np.uint8(10): mesh.tetrahedra}
+        celltypes = np.full(len(mesh.tetrahedra), 10, np.uint8)
+        cell_data = {"inside": np.ones(len(mesh.tetrahedra), np.int8), "region": np.ones(len(mesh.tetrahedra))}
+
+    class Quads:  # as a pyvista.PolyData
+        points = POINTS
+        faces = np.hstack([np.full((4, 1), 4), np.arange(16).reshape(4, 4) % 8]).ravel()
+
+    class Prisms:
+        points = mesh.points
+        cells_dict = {"tetra": mesh.tetrahedra, "wedge": np.zeros((1, 6), int)}
+
+    class Grid:  # as a pyvista.UnstructuredGrid of triangles
+        points = POINTS.astype(np.float32)
+        cells_dict = {np.uint8(5): TRIANGLES}
+
+    class Squares:
+        points = POINTS
+        cells_dict = {"triangle": TRIANGLES, "quad": np.zeros((1, 4), int)}
+
+    for surface in (CUBE, Grid()):
+        assert tetproof.verify(surface, Tetgen()).verdict == tetproof.verify(surface, File()).verdict == "exact"
+    assert tetproof.measure(Tetgen())["inverted"] == 0
+    File.cell_data["inside"] = np.zeros(len(mesh.tetrahedra), np.int8)
+    assert not tetproof.verify(CUBE, File())
+    with pytest.raises(ValueError, match="no triangles"):
+        tetproof.check(Quads())
+    with pytest.raises(ValueError, match="triangle are taken, .*: quad"):
+        tetproof.check(Squares())
+    for job in (tetproof.measure, tetproof.improve):
+        with pytest.raises(ValueError, match="tetra are taken, .*: wedge"):
+            job(Prisms())
+
+
+# The packages themselves: what comes out of them goes straight in.
+
+
+def polydata():
+    pyvista = pytest.importorskip("pyvista")
+    return pyvista.Cube().triangulate().clean()
+
+
+def test_with_tetgen_itself():
+    tetgen = pytest.importorskip("tetgen")
+    surface = polydata()
+    mesher = tetgen.TetGen(surface)
+    arrays = mesher.tetrahedralize(order=1, quiet=True)
+    for given in (arrays, mesher, mesher.grid):
+        assert tetproof.verify(surface, given).verdict == "exact" and tetproof.measure(given)["volume"] == pytest.approx(1)
+
+
+def test_with_pytetwild_itself():
+    pytetwild = pytest.importorskip("pytetwild")
+    surface = polydata()
+    triangles = surface.faces.reshape(-1, 4)[:, 1:].astype(np.int32)
+    for given in (pytetwild.tetrahedralize(np.asarray(surface.points), triangles, edge_length_fac=0.3),
+                  pytetwild.tetrahedralize_pv(surface, edge_length_fac=0.3)):
+        assert tetproof.verify(surface, given, envelope=2e-3).passed and tetproof.measure(given)["inverted"] == 0
+
+
+def test_with_files_of_ours(mesh, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    surface = tetproof.Surface(POINTS, TRIANGLES, LABELS)
+    readers = [meshio.read]
+    try:
+        import pyvista
+        readers.append(pyvista.read)
+    except ImportError:
+        pass
+    for read in readers:
+        for name in ("cube.vtu", "cube.msh") if read is meshio.read else ("cube.vtu",):
+            mesh.write(tmp_path / name)
+            assert tetproof.verify(surface, read(tmp_path / name)).verdict == "exact"
+
+
 def test_files(mesh, tmp_path):
     tetproof.write(tmp_path / "cube.off", tetproof.Surface(POINTS, TRIANGLES, np.zeros(12, np.int32)))
     for name in ("cube.msh", "cube.vtu", "cube.mesh"):

@@ -5,7 +5,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._surfaces import Array, _html, _indices, _line, _points
+from ._surfaces import _NO_TETRAHEDRA, _TETRAHEDRA, Array, _html, _indices, _kind_of_cells, _line, _points
 
 
 class TenNodes(NamedTuple):
@@ -236,12 +236,11 @@ def _tetrahedra(given: Any) -> Mesh:
     if all(hasattr(given, name) for name in ("points", "tetrahedra", "boundary")):
         mesh: Mesh = given
         return mesh
-    if hasattr(given, "cells_dict"):
+    kind = _kind_of_cells(given, _TETRAHEDRA, _NO_TETRAHEDRA)
+    if kind is not None:
         cells = given.cells_dict
-        for kind in ("tetra", 10):  # meshio's name, and VTK's number, of which pyvista has a dict
-            if kind in cells:
-                none = np.zeros(0, np.int32)
-                return Mesh(given.points, cells[kind], np.ones(len(cells[kind]), bool), np.zeros((0, 3), np.uint32), none, none)
+        none = np.zeros(0, np.int32)
+        return Mesh(given.points, cells[kind], np.ones(len(cells[kind]), bool), np.zeros((0, 3), np.uint32), none, none)
     raise TypeError("a mesh of tetrahedra is expected; `read_mesh` makes one of a file")
 
 

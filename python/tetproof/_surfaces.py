@@ -197,19 +197,42 @@ class Repaired(Surface):
     done: List[str] = dataclasses.field(default_factory=list)
 
 
+# What meshio calls cells, and the numbers of VTK, by which pyvista has them; and cells of the same dimension that would be missing.
+_TRIANGLES, _TETRAHEDRA = ("triangle", 5), ("tetra", 10)
+_NO_TRIANGLES, _NO_TETRAHEDRA = ("quad", "polygon", 7, 8, 9), ("hexahedron", "wedge", "pyramid", "tetra10", 11, 12, 13, 14, 24)
+
+
+def _kind_of_cells(given: Any, kinds: Tuple[Any, ...], others: Tuple[Any, ...]) -> Any:
+    """The name or number of those cells that an object of meshio or pyvista has of these kinds, or None."""
+    cells = getattr(given, "cells_dict", {})
+    kind = next((kind for kind in kinds if kind in cells), None)
+    wrong = [str(other) for other in others if other in cells]
+    if kind is not None and wrong:
+        raise ValueError("only cells of the kind %s are taken, and there are others: %s" % (kind, ", ".join(wrong)))
+    return kind
+
+
+def _of_triangles(faces: Any) -> Array:
+    """The triangles of the faces that pyvista has, each after the number of its corners."""
+    array = np.ravel(faces)
+    if len(array) % 4 or (array[::4] != 3).any():
+        raise ValueError("the surface has faces that are no triangles; its method `triangulate` makes triangles")
+    return array.reshape(-1, 4)[:, 1:]
+
+
 def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Optional[Array]]:
     """Arrays, or an object that has them: of tetproof, trimesh (vertices, faces), meshio (points, cells_dict) or pyvista."""
     if triangles is None:
         given = points
         if hasattr(given, "vertices") and hasattr(given, "faces"):
             points, triangles = given.vertices, given.faces
-        elif hasattr(given, "cells_dict") and "triangle" in given.cells_dict:
-            points, triangles = given.points, given.cells_dict["triangle"]
+        elif (kind := _kind_of_cells(given, _TRIANGLES, _NO_TRIANGLES)) is not None:
+            points, triangles = given.points, given.cells_dict[kind]
         elif hasattr(given, "points") and hasattr(given, "triangles"):
             points, triangles = given.points, given.triangles
             labels = labels if labels is not None else getattr(given, "labels", None)
         elif hasattr(given, "faces") and hasattr(given, "points"):
-            points, triangles = given.points, np.reshape(given.faces, (-1, 4))[:, 1:]
+            points, triangles = given.points, _of_triangles(given.faces)
         else:
             raise TypeError("points and triangles are expected, or an object that has them, not %s; `read` makes one of a file"
                             % type(given).__name__)

@@ -11,7 +11,7 @@ from . import _oracles
 from ._jobs import check, read, read_mesh
 from ._meshes import Mesh
 from ._runs import InvalidSurface
-from ._surfaces import Array, _html, _indices, _labels, _points, _surface
+from ._surfaces import _NO_TETRAHEDRA, _TETRAHEDRA, _TRIANGLES, Array, _html, _indices, _kind_of_cells, _labels, _points, _surface
 
 
 @dataclasses.dataclass(eq=False, repr=False)
@@ -115,16 +115,19 @@ def _judged(given: Any) -> Dict[str, Any]:
         mesh.update(boundary=given.boundary, regions=given._regions(), inside=np.ascontiguousarray(given.inside, np.uint8), labels=given.labels,
                     facets=given.facets, planar_within=float(given.planar_within), names=given.names, region_names=given.region_names)
     elif hasattr(given, "cells_dict"):
-        cells = given.cells_dict
-        for tetrahedron, triangle in (("tetra", "triangle"), (10, 5)):  # meshio's names, and VTK's numbers, of which pyvista has a dict
-            if tetrahedron in cells:
-                points, tetrahedra = given.points, cells[tetrahedron]
-                mesh.update(regions=_cell_data(given, "region", tetrahedron), inside=_cell_data(given, "inside", tetrahedron))
-                if triangle in cells:
-                    mesh.update(boundary=cells[triangle], labels=_cell_data(given, "label", triangle))
-                break
-        else:
+        cells, kind = given.cells_dict, _kind_of_cells(given, _TETRAHEDRA, _NO_TETRAHEDRA)
+        if kind is None:
             raise TypeError("the mesh has no tetrahedra of four nodes")
+        points, tetrahedra = given.points, cells[kind]
+        inside = _cell_data(given, "inside", kind)
+        mesh.update(regions=_labels(_cell_data(given, "region", kind), "regions"),
+                    inside=None if inside is None else np.not_equal(inside, 0).astype(np.uint8))
+        triangle = _TRIANGLES[_TETRAHEDRA.index(kind)]
+        if triangle in cells:
+            mesh.update(boundary=cells[triangle], labels=_cell_data(given, "label", triangle))
+    elif hasattr(given, "elem") and hasattr(given, "node"):  # a tetgen.TetGen
+        points, tetrahedra = given.node, given.elem
+        mesh.update(either_orientation=True)
     elif isinstance(given, (tuple, list)) and len(given) >= 2:
         points, tetrahedra = given[:2]
         mesh.update(either_orientation=True)
