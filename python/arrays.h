@@ -16,6 +16,18 @@ namespace tetproof_python {
 
 namespace py = pybind11;
 
+// An older pybind11 misreads arrays of NumPy 2 and says nothing: labels were lost.
+inline void refuse_unknown_numpy() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+  const auto version = py::cast<std::string>(py::module_::import("numpy").attr("__version__"));
+  if (version.rfind("1.", 0) != 0) {
+    throw py::import_error("NumPy " + version +
+                           " is too new for the pybind11 that tetproof was built with: build it "
+                           "with pybind11 2.12 or newer");
+  }
+#endif
+}
+
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 

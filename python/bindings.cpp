@@ -520,6 +520,7 @@ std::vector<std::string> write_surface_file(const std::string& path, const Array
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
+  refuse_unknown_numpy();
   module.doc() = "What tetproof is made of; use tetproof instead.";
   module.attr("version") = version();
   module.attr("options") = all_described();

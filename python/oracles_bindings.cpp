@@ -159,6 +159,7 @@ std::string measure_arrays(const py::dict& given) {
 }  // namespace
 
 PYBIND11_MODULE(_oracles, module) {
+  refuse_unknown_numpy();
   module.def("verify", verify_arrays);
   module.def("measure", measure_arrays);
   module.attr("least_envelope") = kLeastEnvelope;
