@@ -31,8 +31,9 @@ class CMakeBuild(build_ext):
         if along:
             shutil.copytree(along, target / "along", dirs_exist_ok=True)
         # Read together, the files of a target take the compiler a third of the time.
-        subprocess.run(["cmake", *ninja, "-S", str(ROOT), "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                        "-DCMAKE_SKIP_RPATH=ON", "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_SECOND_OPINIONS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
+        # What CMake found of another Python is forgotten.
+        subprocess.run(["cmake", *ninja, "-S", str(ROOT), "-B", build, "-U_Python3*", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+                        "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_SECOND_OPINIONS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
                         "-DTETPROOF_PYTHON=%s" % target, "-DTETPROOF_PYTHON_ALONG=%s" % ("ON" if along else "OFF"),
                         "-DPython3_EXECUTABLE=%s" % sys.executable,
                         "-Dpybind11_DIR=%s" % pybind11.get_cmake_dir(), *shlex.split(os.environ.get("CMAKE_ARGS", ""))],

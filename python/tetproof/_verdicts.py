@@ -155,7 +155,7 @@ def verify(surface: Any, mesh: Any, *, promised: str = "mesh", envelope: Optiona
     ----------
     surface : Surface, or an object with points and triangles, or a path, or (points, triangles) or (points, triangles, labels)
         As in `mesh`.
-    mesh : Mesh, or an object with tetrahedra, or a path, or (points, tetrahedra)
+    mesh : Mesh, or an object with tetrahedra (of meshio, pyvista, tetgen), or a path, or (points, tetrahedra)
         Of meshio and pyvista the tetrahedra, with cell data ``region`` and ``inside``, and the triangles, with ``label``, as the
         mesh's list of its boundary. A pair of arrays, as of tetgen or pytetwild: (n, 3) float and (t, 4) int; all its tetrahedra
         may be turned the other way.
