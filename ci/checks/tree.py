@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks of the source tree that no compiler makes: include directions, machine paths, licence notes, one list of packages.
+"""Checks of the source tree that no compiler makes: include directions, machine paths, licence notes, one list of packages, one version.
 
 Usage: tree.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
 """
@@ -261,6 +261,25 @@ def check_packages(texts):
                 yield path, number, "lists packages, which ci/packages does: " + line.strip()[:80]
 
 
+# Where the version of CMakeLists.txt is repeated, since other tools read these files.
+VERSION = re.compile(r'project\(tetproof VERSION ([\d.]+)')
+VERSIONS = {
+    "ci/packaging/conda/recipe.yaml": re.compile(r'^  version: "([\d.]+)"', re.M),
+    "ci/packaging/npm/package.json": re.compile(r'"version": "([^"]+)"'),
+    "ci/packaging/spack/package.py": re.compile(r'^    version\("([^"]+)"', re.M),
+    "ci/packaging/vcpkg/vcpkg.json": re.compile(r'"version-semver": "([^"]+)"'),
+    "docs/releases.md": re.compile(r"^### ([\d.]+)", re.M),
+}
+
+
+def check_versions(texts):
+    version = VERSION.search(texts.get("CMakeLists.txt", ""))
+    for path, pattern in VERSIONS.items() if version else ():
+        found = pattern.search(texts.get(path, ""))
+        if not found or found.group(1) != version.group(1):
+            yield path, 1, "CMakeLists.txt has version %s, here is %s" % (version.group(1), found.group(1) if found else "none")
+
+
 def check_licences(files, texts, root):
     if "MIT License" not in texts.get("LICENSE", ""):
         yield "LICENSE", 1, "the licence of the project (MIT) must stand here"
@@ -293,6 +312,7 @@ def check_tree(root):
             for number, reason in itertools.chain(check_source(path, lines, root), check_namespaces(path, lines, texts)):
                 yield path, number, reason
     yield from check_packages(texts)
+    yield from check_versions(texts)
     yield from check_licences(files, texts, root)
 
 

@@ -78,6 +78,8 @@ BAD = {
                                           "a file of mesher/cdt opens namespace delmesher::cdt"),
     "machine path": ({"ci/x.sh": "cd /" + "home/someone\n"}, "path of one machine"),
     "packages listed twice": ({"ci/x.sh": "apt-get install libone-dev libtwo-dev\n"}, "lists packages"),
+    "version forgotten": ({"CMakeLists.txt": "project(tetproof VERSION 1.2.0)\n", "ci/packaging/vcpkg/vcpkg.json": '{"version-semver": "1.1.0"}'},
+                          "vcpkg.json:1: CMakeLists.txt has version 1.2.0, here is 1.1.0"),
     "licence missing": ({"LICENSE": ""}, "licence of the project"),
     "AGPL unsaid": ({"corpus/peers/tetgen/LICENSE.md": "free\n"}, "uses AGPL code"),
     "GPL unsaid": ({"oracles/c.cpp": "#include <CGAL/Epeck.h>\n"}, "uses GPL code"),
