@@ -164,12 +164,13 @@ def _with_options(function: _Function) -> _Function:
     parameters = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
     for name, kind, default, unit, text in _core.options[function.__name__]:
         parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default))
-        lines.append("    %s : %s, %s" % (name, kind, "optional" if default is None else "default %r" % default))
+        lines.append("%s : %s, %s" % (name, kind, "optional" if default is None else "default %r" % default))
         text = _in_python(text)
-        lines.append("        %s%s." % (text[0].upper() + text[1:], unit and ", " + unit))
+        lines.append("    %s%s." % (text[0].upper() + text[1:], unit and ", " + unit))
     function.__signature__ = signature.replace(parameters=parameters)  # type: ignore
     if function.__doc__:  # not there with -OO
-        function.__doc__ = function.__doc__.replace("    **options\n", "\n".join(lines) + "\n")
+        # From Python 3.13 on it is not indented.
+        function.__doc__ = re.sub(r"^( *)\*\*options\n", lambda found: "".join(found[1] + line + "\n" for line in lines), function.__doc__, flags=re.M)
     return function
 
 
