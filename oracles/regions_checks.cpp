@@ -55,6 +55,10 @@ std::string RegionsStep::run() {
   if (!check_tetrahedra(points, true, complex, neighbours)) return {};
   PartsResult parts = check_parts(input_, mesh_, complex, neighbours, options_.promised,
                                   options_.promised.strict ? 0 : kRoundedUlps * ulp_);
+  if (parts.parts.passed()) {
+    report_.deviation = parts.deviation;
+    report_.deviation_ulps = parts.deviation / ulp_;
+  }
   if (parts.split > 0) {
     report_.unproven.push_back("--regions (" + std::to_string(parts.split) +
                                " triangles are split)");

@@ -17,6 +17,7 @@
 #include "oracles/mesh/region_points.h"
 #include "oracles/mesh/shells.h"
 #include "oracles/mesh/solids.h"
+#include "oracles/mesh/split_triangles.h"
 #include "oracles/surface/input_surface.h"
 #include "oracles/verdict/edge_sizes.h"
 
@@ -32,9 +33,11 @@ constexpr double kEqualVolumes = 0x1p-22;
 struct Triangle {
   Face corners;
   Face sorted;
+  Face whole;  // the corners of the given one, of which it may be a part
   std::vector<std::int32_t> labels;
-  std::vector<bool> even;  // per label: how its triangle is turned, as sort_face says
-  Index given = 0;         // the first one
+  std::vector<bool> even;     // per label: how its triangle is turned, as sort_face says
+  Index given = 0;            // the first one
+  bool is_ambiguous = false;  // as of SplitTriangles
   // The tetrahedron in front, where its corners are seen counter-clockwise, and the one behind.
   std::array<Index, 2> beside = {kNobody, kNobody};
 };
@@ -49,14 +52,15 @@ class Parts {
         neighbours_(neighbours),
         points_(*complex.points),
         promise_(promise),
-        part_(complex.tetrahedra.size()),
         region_points_(input.region_points, complex) {}
 
   PartsResult run(double near) {
     collect_triangles();
-    find_solids();
     result_.parts.checked = triangles_.size();
     connect();
+    if (near > 0 && read_split(near)) connect();
+    find_solids();
+    check_strays();
     find_parts_of_points();
     check_outer_faces();
     check_bare();
@@ -71,14 +75,14 @@ class Parts {
     if (splits_walls()) {
       for (const auto& [part, t] : parts()) result_.called[part] = called(t);
     }
-    if (near > 0 && !torn_ && !missing_.empty() && missing_.size() <= kMostSplit &&
-        std::ranges::all_of(missing_, [&](Index t) { return is_split(triangles_[t], near); })) {
-      result_.split = missing_.size();
+    if (!torn_ && !missing_.empty() && missing_.size() <= kMostSplit &&
+        std::ranges::all_of(missing_, [&](Index t) { return triangles_[t].is_ambiguous; })) {
+      result_.split += missing_.size();
       for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
         report->undecided = report->violations > 0;
       }
       result_.parts.notes.emplace_back(
-          "triangles have vertices that are not corners: whether faces tile them is not decided");
+          "flat tetrahedra lie on triangles that are split: which faces tile these is not decided");
     }
     return std::move(result_);
   }
@@ -86,29 +90,6 @@ class Parts {
  private:
   // A mesh that splits more has not kept the surface.
   static constexpr std::size_t kMostSplit = 1000;
-
-  // Has the mesh the corners, and a vertex on the triangle besides?
-  bool is_split(const Triangle& t, double near) const {
-    if (*std::ranges::min_element(t.corners) < complex_.first_vertex) return false;
-    const auto at = [&](Index v) { return points_.nearest(v); };
-    const Position a = at(t.corners[0]), u = between(a, at(t.corners[1])),
-                   v = between(a, at(t.corners[2]));
-    const Position n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                        u[0] * v[1] - u[1] * v[0]};
-    const double size = std::hypot(n[0], n[1], n[2]);
-    const BoxTree::Box box = enlarged(box_around(points_, t.corners), near);
-    return std::ranges::any_of(mesh_.vertices, [&](const Position& p) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
-      }
-      const Position w = between(a, p);
-      return std::ranges::none_of(t.corners, [&](Index corner) { return at(corner) == p; }) &&
-             std::fabs(w[0] * n[0] + w[1] * n[1] + w[2] * n[2]) <= near * size;
-    });
-  }
-  static Position between(const Position& p, const Position& q) {
-    return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
-  }
 
   std::string name(const Triangle& t) const { return "triangle " + std::to_string(t.given); }
 
@@ -139,7 +120,7 @@ class Parts {
     for (Index t = 0; t < input_.triangles.size(); ++t) {
       Triangle triangle;
       for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = vertex[input_.triangles[t][k]];
-      triangle.sorted = triangle.corners;
+      triangle.sorted = triangle.whole = triangle.corners;
       const bool even = sort_face(triangle.sorted);
       triangle.given = t;
       const auto [at, fresh] =
@@ -158,16 +139,68 @@ class Parts {
     return at == by_corners_.end() ? kNobody : at->second;
   }
 
+  // Replaces triangles that the mesh has in several faces by these. False if there are none.
+  bool read_split(double near) {
+    std::vector<Index> asked;
+    std::vector<Face> faces;
+    for (Index n = 0; n < triangles_.size(); ++n) {
+      const Triangle& t = triangles_[n];
+      if (t.beside[0] != kNobody || t.beside[1] != kNobody) continue;
+      if (*std::ranges::min_element(t.corners) < complex_.first_vertex) continue;
+      asked.push_back(n);
+      faces.push_back(t.corners);
+    }
+    if (asked.empty()) return false;
+    SplitTriangles split(complex_, corners_, near);
+    const std::vector<SplitTriangles::Split> parts = split.read(neighbours_, faces);
+    for (std::size_t n = 0; n < asked.size(); ++n) {
+      const auto& [own, is_ambiguous] = parts[n];
+      triangles_[asked[n]].is_ambiguous = is_ambiguous;
+      if (!own.empty() && put_in_place(asked[n], own)) ++result_.split;
+    }
+    if (result_.split == 0) return false;
+    result_.deviation = split.deviation();
+    result_.parts.figures.emplace_back("deviation", result_.deviation);
+    corners_.clear();
+    for (const Triangle& t : triangles_) corners_.push_back(t.corners);
+    return true;
+  }
+  // Of a triangle; they look to where it does. False if one is a triangle already.
+  bool put_in_place(Index n, const std::vector<Face>& parts) {
+    if (std::ranges::any_of(parts, [&](const Face& part) { return triangle_of(part) != kNobody; }))
+      return false;
+    const Triangle given = triangles_[n];
+    by_corners_.erase(given.sorted);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      Triangle part = given;
+      part.corners = part.sorted = parts[k];
+      const bool even = sort_face(part.sorted);
+      for (std::size_t label = 0; label < given.even.size(); ++label) {
+        part.even[label] = (given.even[label] == given.even[0]) == even;
+      }
+      const Index at = k == 0 ? n : static_cast<Index>(triangles_.size());
+      by_corners_.emplace(part.sorted, at);
+      if (k == 0)
+        triangles_[n] = part;
+      else
+        triangles_.push_back(part);
+    }
+    return true;
+  }
+
   // Tetrahedra across faces that are not triangles become one part.
   void connect() {
+    part_ = UnionFind(complex_.tetrahedra.size());
+    strays_.clear();
+    outer_faces_.clear();
+    for (Triangle& t : triangles_) t.beside = {kNobody, kNobody};
     for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
       for (int i = 0; i < 4; ++i) {
         const Face face = face_of(complex_.tetrahedra[t], i);
         const Index across = neighbours_.across[4 * t + static_cast<Index>(i)];
         const Index n = triangle_of(face);
         if (n == kNobody && across == kNone) {
-          result_.parts.fail(complex_.face_name(face) +
-                             " is of one tetrahedron alone, and no triangle of the input");
+          strays_.push_back(face);
         } else if (n == kNobody) {
           part_.unite(t, across / 4);
         } else {
@@ -178,6 +211,13 @@ class Parts {
         }
         if (across == kNone) outer_faces_.push_back(face);
       }
+    }
+  }
+
+  void check_strays() {
+    for (const Face& face : strays_) {
+      result_.parts.fail(complex_.face_name(face) +
+                         " is of one tetrahedron alone, and no triangle of the input");
     }
   }
 
@@ -377,7 +417,7 @@ class Parts {
       for (const Index tet : t.beside) {
         const double most = tet != kNobody ? result_.longest[tet] * EdgeSizes::kMost : 0;
         for (std::size_t k = 0; most > 0 && k < 3; ++k) {
-          const double length = exact::distance(points_, t.corners[k], t.corners[(k + 1) % 3]);
+          const double length = exact::distance(points_, t.whole[k], t.whole[(k + 1) % 3]);
           if (length > most) result_.triangles_fit = false;
         }
       }
@@ -538,11 +578,12 @@ class Parts {
   std::vector<Face> corners_;  // of the triangles
   std::unique_ptr<Solids> solids_;
   std::map<Face, Index> by_corners_;
-  UnionFind part_;
+  UnionFind part_{0};
   std::optional<Shells> shells_;
   RegionPoints region_points_;
   std::map<Index, std::vector<Index>> points_of_;  // of parts
   bool torn_ = false;                              // the mesh has several vertices at one place
+  std::vector<Face> strays_;  // faces of one tetrahedron alone that are no triangles
   std::vector<Face> outer_faces_;
   std::optional<RayTarget> outer_;
   std::vector<Index> missing_;  // triangles that should be faces and are not

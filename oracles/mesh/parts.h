@@ -41,7 +41,9 @@ struct PartsResult {
   // the labels given. Those that are turned, or have the label of the other side, are counted: not
   // every format of surfaces or meshes has sides.
   OracleReport list{"boundary-list", "triangles"};
-  std::uint64_t split = 0;  // triangles that may be, see below
+  // Triangles that are split; and how far a vertex is from that of them on which it belongs.
+  std::uint64_t split = 0;
+  double deviation = 0;
   // Per tetrahedron its part; if walls are to be split, what each part is called, if anything.
   std::vector<Index> part;
   std::map<Index, std::string> called;
@@ -52,9 +54,9 @@ struct PartsResult {
 
 // `points` of the complex: the vertices of the input, then those of the file from
 // complex.first_vertex on. Triangles that are repeated in the input count once. Those that are not
-// faces of the mesh are violations, but for those that bound no part. `near`: if all of them have
-// a vertex of the mesh within this distance (input units) that is not a corner, they may be split,
-// and whether faces tile them is not decided; 0: that is not asked.
+// faces of the mesh are violations, but for those that bound no part. `near` (input units; 0: this
+// is not asked): several faces stand for one with vertices so near to it (split_triangles.h). If
+// for all others that should be faces this is ambiguous, that is not decided.
 PartsResult check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
                         const Neighbours& neighbours, const Promise& promise, double near);
 
