@@ -77,7 +77,8 @@ FOLDERS = {
 # The benchmarks time the kernels. The adapters of peers read and write with the very code of the mesher's command line, so that every mesher
 # sees the same doubles; the io library needs nothing of the mesher but the public header.
 ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/peers/tetgen/": "mesher/io/", "corpus/peers/programs/": "mesher/io/",
-            "python/": "mesher/delmesher/option_table.h", "corpus/peers/meshers": "mesher/delmesher/option_table.h"}
+            "python/": "mesher/delmesher/option_table.h", "corpus/peers/meshers": "mesher/delmesher/option_table.h",
+            "corpus/cli/union_command": "mesher/delmesher/option_table.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 OPENED = re.compile(r"^(?:inline )?namespace(?: ([\w:]+))? \{$")

@@ -57,6 +57,8 @@ struct UnionArguments {
   std::string input, output;  // surface files
   bool nonzero = false;       // also inside of what is turned inwards
   double separate = 0;        // fraction of the diagonal
+  bool walls = false;         // nothing is dropped
+  std::string snap;           // a length, or a fraction of the diagonal
 };
 
 struct ReportArguments {

@@ -359,6 +359,15 @@ CLI::App* declare_union(CLI::App& tetproof, UnionArguments& a) {
                   "fraction of the diagonal (0: leave them)")
       ->capture_default_str()
       ->check(number_in(0, 0.01));
+  app->add_flag(
+      "--walls", a.walls,
+      "Drop nothing: bodies that overlap, or touch in different triangles, and open sheets "
+      "become triangles that meet in common vertices and edges alone, those of several "
+      "bodies once for each label (for delmesher mesh --regions all)");
+  app->add_option("--snap", a.snap,
+                  "With --walls: vertices, edges and faces nearer than this count as touching: a "
+                  "length, or a fraction of the diagonal as in 1e-6d (what roundings of doubles or "
+                  "floats explain)");
   app->footer(
       "Exit codes: 0 done, 1 parts touch so that it is not manifold there, 2 usage, 3 unreadable "
       "or cannot be written, 4 it does not close up, 5 memory, the precision of doubles, or "

@@ -1,10 +1,30 @@
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "corpus/campaigns/campaign.h"
 #include "corpus/cli/commands.h"
 #include "corpus/union/union_files.h"
+#include "mesher/delmesher/option_table.h"
 
 namespace tetproof {
+namespace {
+
+// As of UnionOptions.
+double snap_of(const UnionArguments& arguments) {
+  if (arguments.snap.empty()) return 0;
+  if (!arguments.walls) throw UsageError("--snap goes with --walls");
+  const double share = -delmesher::options::share_of(arguments.snap);
+  if (share > 0 && share <= 0.01) return -share;
+  char* end = nullptr;
+  const double length = std::strtod(arguments.snap.c_str(), &end);
+  if (*end == 0 && length > 0 && std::isfinite(length)) return length;
+  throw UsageError("--snap " + arguments.snap +
+                   ": a length is expected, or a fraction of the diagonal as in 1e-6d, at most " +
+                   "0.01d");
+}
+
+}  // namespace
 
 int union_command(const UnionArguments& arguments) {
   if (!unite::is_surface_output(arguments.output)) {
@@ -14,6 +34,11 @@ int union_command(const UnionArguments& arguments) {
   unite::UnionOptions options;
   if (arguments.nonzero) options.inside = unite::Inside::nonzero;
   options.separate = arguments.separate;
+  options.walls = arguments.walls;
+  if (options.walls && (arguments.nonzero || arguments.separate > 0)) {
+    throw UsageError("--walls keeps everything: neither --nonzero nor --separate goes with it");
+  }
+  options.snap = snap_of(arguments);
   options.go_on = [] { return !campaign_interrupted(); };
   return unite::unite_files(
       arguments.input, arguments.output, options,

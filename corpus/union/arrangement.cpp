@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -19,8 +20,9 @@ using oracles::UnionFind;
 
 class Arranger {
  public:
-  Arranger(const Soup& soup, Poll& poll)
+  Arranger(const Soup& soup, Cancelled cancelled, Poll& poll)
       : soup_(soup),
+        cancelled_(cancelled),
         poll_(poll),
         planes_(soup.triangles.size()),
         chords_(soup.triangles.size()),
@@ -44,6 +46,7 @@ class Arranger {
   void cut(const std::vector<Index>& members);
 
   const Soup& soup_;
+  const Cancelled cancelled_;
   Poll& poll_;
   UnionFind planes_;  // sets of triangles that meet in one plane
   std::vector<std::vector<Chord>> chords_;
@@ -112,7 +115,7 @@ void Arranger::add(const MeetingPair& pair) {
 }
 
 void Arranger::cut(const std::vector<Index>& members) {
-  PlaneCut plane(soup_, members, result_.points);
+  PlaneCut plane(soup_, members, cancelled_, result_.points);
   for (const Index member : members) {
     poll_();
     plane.add(chords_[member]);
@@ -141,6 +144,7 @@ Arrangement Arranger::run() {
       cut({t});
     } else {
       result_.pieces.push_back({soup_.triangles[t], 1, t, false});
+      if (cancelled_ == Cancelled::kept) result_.pieces.back().parents = {t};
     }
   }
   return std::move(result_);
@@ -155,8 +159,33 @@ std::vector<Triangle> triangles_of(std::span<const Piece> pieces) {
   return list;
 }
 
-Arrangement arrange(const Soup& soup, const std::vector<MeetingPair>& pairs, Poll& poll) {
-  Arranger arranger(soup, poll);
+delmesher::Surface rounded(const Points& points, std::span<const Piece> pieces,
+                           const std::function<std::int32_t(const Piece&)>& label, double& moved,
+                           Poll& poll) {
+  delmesher::Surface surface;
+  for (Index i = 0; i < points.size(); ++i) surface.vertices.push_back(points.approximate(i));
+  std::vector<bool> done(points.size(), false);
+  double largest = 0;
+  for (const Piece& piece : pieces) {
+    poll();
+    for (const Index v : piece.corners) {
+      if (done[v] || points.is_given(v)) continue;
+      done[v] = true;
+      const Position at = points.rounded(v);
+      surface.vertices[v] = at;
+      const auto off = points[v] - Exact::Point_3(at[0], at[1], at[2]);
+      largest = std::max(largest, std::sqrt(CGAL::to_double(off.squared_length())));
+    }
+    surface.triangles.push_back(piece.corners);
+    surface.labels.push_back(label(piece));
+  }
+  moved += largest;
+  return surface;
+}
+
+Arrangement arrange(const Soup& soup, const std::vector<MeetingPair>& pairs, Cancelled cancelled,
+                    Poll& poll) {
+  Arranger arranger(soup, cancelled, poll);
   for (const MeetingPair& pair : pairs) arranger.enter(pair);
   for (const MeetingPair& pair : pairs) arranger.add(pair);
   return arranger.run();

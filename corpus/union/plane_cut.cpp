@@ -7,9 +7,11 @@
 
 namespace tetproof::unite {
 
-PlaneCut::PlaneCut(const Soup& soup, std::span<const Index> members, Points& points)
+PlaneCut::PlaneCut(const Soup& soup, std::span<const Index> members, Cancelled cancelled,
+                   Points& points)
     : soup_(soup),
       members_(members),
+      cancelled_(cancelled),
       points_(points),
       axis_(axis_across(points, soup.triangles[members.front()])) {
   const Triangle& t = soup.triangles[members.front()];
@@ -107,6 +109,7 @@ void PlaneCut::cover(Index member, Poll& poll) {
     info.times += up ? 1 : -1;
     Index& first = up ? info.upwards : info.downwards;
     first = std::min(first, member);
+    if (cancelled_ == Cancelled::kept) info.members.push_back(member);
     for (int i = 0; i < 3; ++i) {
       if (face->is_constrained(i) && is_on_side(face, i, corners)) continue;
       const auto beyond = face->neighbor(i);
@@ -120,12 +123,14 @@ void PlaneCut::cover(Index member, Poll& poll) {
 
 void PlaneCut::append(const Triangulation::Face_handle& face, std::vector<Piece>& pieces) const {
   const FaceInfo& info = face->info();
-  if (info.times == 0) return;
+  const bool all = cancelled_ == Cancelled::kept;
+  if (all ? info.members.empty() : info.times == 0) return;
   Triangle corners;
   for (int k = 0; k < 3; ++k) corners[k] = face->vertex(k)->info().number;
-  if (info.times < 0) std::swap(corners[1], corners[2]);
-  pieces.push_back(
-      {corners, std::abs(info.times), info.times > 0 ? info.upwards : info.downwards, true});
+  const bool up = all ? info.upwards < info.downwards : info.times > 0;
+  if (!up) std::swap(corners[1], corners[2]);
+  pieces.push_back({corners, all ? 1 : std::abs(info.times), up ? info.upwards : info.downwards,
+                    true, info.members});
 }
 
 void PlaneCut::append_to(std::vector<Piece>& pieces, Poll& poll) {

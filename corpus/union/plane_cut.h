@@ -28,7 +28,7 @@ struct Chord {
 class PlaneCut {
  public:
   // `members` are triangles of one plane.
-  PlaneCut(const Soup& soup, std::span<const Index> members, Points& points);
+  PlaneCut(const Soup& soup, std::span<const Index> members, Cancelled cancelled, Points& points);
   void add(const std::vector<Chord>& chords);
   // Numbers the crossings, and appends the pieces of the members.
   void append_to(std::vector<Piece>& pieces, Poll& poll);
@@ -41,6 +41,7 @@ class PlaneCut {
     int times = 0;                             // of those that face up
     Index upwards = kNone, downwards = kNone;  // the first members here that face so
     Index seen = kNone;                        // by this member last
+    std::vector<Index> members;                // here, with Cancelled::kept
   };
   using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Exact>;
   using FaceBase =
@@ -63,6 +64,7 @@ class PlaneCut {
 
   const Soup& soup_;
   std::span<const Index> members_;
+  const Cancelled cancelled_;
   Points& points_;
   int axis_;  // "up" is along it
   // The plane: normal . (x - origin) = 0.

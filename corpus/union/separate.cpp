@@ -293,7 +293,7 @@ void Separator::check() {
   const Soup again = soup_of(surface_of(soup_));
   if (again.welded + again.degenerate > 0) throw InternalError("parts moved apart are not");
   if (find_touching(soup_.triangles).place != kNone) throw InternalError("copies still touch");
-  const Arrangement arrangement = arrange(soup_, {}, poll_);
+  const Arrangement arrangement = arrange(soup_, {}, Cancelled::dropped, poll_);
   if (find_open_edges(arrangement.pieces).count > 0) throw InternalError("parts are open");
   const std::vector<int> windings = windings_in_front(arrangement, poll_);
   if (std::any_of(windings.begin(), windings.end(), [](int w) { return w != 0; })) {

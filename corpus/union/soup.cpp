@@ -120,6 +120,25 @@ double volume(const Soup& soup) {
   return static_cast<double>(sum / 6);
 }
 
+double largest_coordinate(const Soup& soup) {
+  double largest = 0;
+  for (const Position& p : soup.vertices) {
+    for (const double x : p) largest = std::max(largest, std::fabs(x));
+  }
+  return largest;
+}
+
+double diagonal(const Soup& soup) {
+  Position low = soup.vertices.front(), high = low;
+  for (const Position& p : soup.vertices) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
 Edges::Edges(std::span<const Triangle> triangles) {
   uses_.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {

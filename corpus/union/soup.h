@@ -33,6 +33,9 @@ Soup soup_of(const delmesher::Surface& surface);
 
 delmesher::Surface surface_of(const Soup& soup);
 
+double largest_coordinate(const Soup& soup);  // its absolute value
+double diagonal(const Soup& soup);            // of the box around it, which is not empty
+
 // Signed, and rounded.
 double volume(const Soup& soup);
 

@@ -87,7 +87,9 @@ int unite_readable(const std::string& input, const std::string& output, const Un
     say(written.error);
     return kUnreadable;
   }
-  say(output + ": " + (code == kDone ? "a valid surface" : result.message));
+  const char* what =
+      options.walls ? "triangles for `delmesher mesh --regions all`" : "a valid surface";
+  say(output + ": " + (code == kDone ? what : result.message));
   return code;
 }
 

@@ -63,6 +63,26 @@ std::string solid(const std::string& name, int x) {
   return text.str();
 }
 
+TEST_F(UnionFiles, WritesWallsOrSaysWhichSnapDoes) {
+  const std::string input = write("two.stl", solid("lower", 0) + solid("upper", 1));
+  EXPECT_EQ(run("--walls " + input + " -o " + path("walls.stl")), 0) << said();
+  EXPECT_NE(said().find("walls.stl: triangles for `delmesher mesh --regions all`"),
+            std::string::npos)
+      << said();
+  EXPECT_EQ(run("--walls --snap 1e-6d " + input + " -o " + path("walls.stl")), 0) << said();
+  EXPECT_EQ(run("--walls --snap 10 " + input + " -o " + path("none.stl")), 5);
+  EXPECT_NE(said().find("two.stl: all is within 10 of each other; `--snap 0.625` does it, and"),
+            std::string::npos)
+      << said();
+  EXPECT_FALSE(fs::exists(path("none.stl")));
+  EXPECT_EQ(run("--walls --snap 100 " + input + " -o " + path("none.stl")), 5);
+  EXPECT_NE(said().find("no other --snap does it"), std::string::npos) << said();
+  for (const char* wrong : {"--snap 1", "--walls --snap 0", "--walls --snap 1d", "--walls --snap x",
+                            "--walls --nonzero"}) {
+    EXPECT_EQ(run(wrong + (" " + input) + " -o " + path("none.stl")), 2) << wrong;
+  }
+}
+
 TEST_F(UnionFiles, WritesTheUnionWithItsNames) {
   const std::string input = write("two.stl", solid("lower", 0) + solid("upper", 1));
   EXPECT_EQ(run(input + " -o " + path("one.stl")), 0) << said();

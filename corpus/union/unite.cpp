@@ -11,46 +11,15 @@
 #include "corpus/union/flat_sides.h"
 #include "corpus/union/joining.h"
 #include "corpus/union/separate.h"
+#include "corpus/union/walls.h"
 #include "corpus/union/winding.h"
+#include "corpus/union/words.h"
 #include "oracles/cgal/surface_opinion.h"
 
 namespace tetproof::unite {
 namespace {
 
 using delmesher::Surface;
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
-
-std::string place(const Position& p) {
-  return "(" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")";
-}
-
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-double largest_coordinate(const Soup& soup) {
-  double largest = 0;
-  for (const Position& p : soup.vertices) {
-    for (const double x : p) largest = std::max(largest, std::fabs(x));
-  }
-  return largest;
-}
-
-double diagonal(const Soup& soup) {
-  Position low = soup.vertices.front(), high = low;
-  for (const Position& p : soup.vertices) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
 
 // Points that triangles were cut at: where sides cross planes beside triangles, there are more.
 std::uint64_t new_corners(const Points& points, const std::vector<Piece>& pieces) {
@@ -85,7 +54,6 @@ class Uniter {
     return options_.inside == Inside::positive ? winding > 0 : winding != 0;
   }
   std::vector<Piece> kept_pieces(const Arrangement& arrangement);
-  Surface rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces);
   double reach(int rounds) const;
   std::vector<Index> new_needles();
   bool remove_new_needles();
@@ -189,31 +157,8 @@ bool Uniter::remove_new_needles() {
   return true;
 }
 
-Surface Uniter::rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces) {
-  const Points& points = arrangement.points;
-  Surface surface;
-  for (Index i = 0; i < points.size(); ++i) surface.vertices.push_back(points.approximate(i));
-  std::vector<bool> done(points.size(), false);
-  double largest = 0;
-  for (const Piece& piece : pieces) {
-    poll_();
-    for (const Index v : piece.corners) {
-      if (done[v] || points.is_given(v)) continue;
-      done[v] = true;
-      const Position at = points.rounded(v);
-      surface.vertices[v] = at;
-      const auto off = points[v] - Exact::Point_3(at[0], at[1], at[2]);
-      largest = std::max(largest, std::sqrt(CGAL::to_double(off.squared_length())));
-    }
-    surface.triangles.push_back(piece.corners);
-    surface.labels.push_back(soup_.labels[piece.parent]);
-  }
-  result_.counts.largest_move += largest;
-  return surface;
-}
-
 bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
-  const Arrangement arrangement = arrange(soup_, pairs, poll_);
+  const Arrangement arrangement = arrange(soup_, pairs, Cancelled::dropped, poll_);
   UnionCounts& counts = result_.counts;
   const bool first = counts.rounds++ == 0;
   if (const OpenEdges open = find_open_edges(arrangement.pieces); open.count > 0) {
@@ -239,7 +184,8 @@ bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
     counts.dropped = dropped;
     tell_arrangement();
   }
-  soup_ = soup_of(rounded(arrangement, kept));
+  const auto label = [&](const Piece& piece) { return soup_.labels[piece.parent]; };
+  soup_ = soup_of(rounded(arrangement.points, kept, label, counts.largest_move, poll_));
   if (soup_.triangles.empty()) return fail(UnionCode::empty, "nothing is inside");
   return true;
 }
@@ -371,7 +317,8 @@ UnionResult Uniter::run(const Surface& surface) {
 }  // namespace
 
 UnionResult unite(const Surface& surface, const UnionOptions& options) {
-  return Uniter(options).run(surface);
+  return options.walls ? cut_into_walls(surface, options.snap, options.go_on)
+                       : Uniter(options).run(surface);
 }
 
 }  // namespace tetproof::unite

@@ -54,6 +54,10 @@ struct UnionOptions {
   // Where parts touch, they are moved apart, each vertex by at most this fraction of the diagonal
   // of the result; 0: they are left as they are.
   double separate = 0;
+  bool walls = false;  // instead of a union: walls.h; not with the others
+  // With walls: what is nearer than this counts as touching. Minus a fraction of the diagonal; 0:
+  // what roundings explain.
+  double snap = 0;
   std::function<bool()> go_on;  // asked many times a second; unite() stops where it says no
 };
 

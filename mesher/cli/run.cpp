@@ -115,6 +115,11 @@ void Runner::count_defects(Status& status) const {
   status.message += " (in all " + line;
   for (const surface::Contact& contact : surface::contacts(surface_, report))
     status.message += ": " + contact.what;
+  const auto* options = std::get_if<Options>(&command_.options);
+  if (options != nullptr && options->regions != Regions::solid &&
+      report.defect_counts[static_cast<std::size_t>(Defect::Kind::self_intersection)] > 0) {
+    status.message += "; `tetproof union --walls` cuts them along each other";
+  }
   status.message += "; see delmesher check)";
 }
 

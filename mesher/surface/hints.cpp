@@ -236,13 +236,16 @@ std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& repor
     if (count_of(report, Kind::open_edge) > 0) {
       const std::uint64_t sheet = triangles_of_sheets(surface, report);
       if (sheet > 0) {
-        found.push_back({"a sheet of " + counted(sheet, "triangle") + " meets a closed body",
-                         "an inner wall, or what sticks out: only what closes up bounds a solid, "
-                         "`delmesher repair --fill` removes the rest"});
+        found.push_back(
+            {"a sheet of " + counted(sheet, "triangle") + " meets a closed body",
+             "an inner wall, or what sticks out: `tetproof union --walls` cuts them for "
+             "--regions all; of a solid it is no part, `delmesher repair --fill` "
+             "removes it"});
       }
     } else if (report.components > 1 && !any_cross(surface, report)) {
       found.push_back({"bodies touch, and do not cross",
-                       "`tetproof union` makes one of them, or mesh them one by one"});
+                       "`tetproof union` makes one of them, `tetproof union --walls` parts for "
+                       "--regions all; or mesh them one by one"});
     }
   } else if (count_of(report, Kind::non_manifold_vertex) > 0 &&
              count_of(report, Kind::open_edge) == 0) {
@@ -294,13 +297,11 @@ std::vector<std::string> hints_of(const Surface& surface, const SurfaceReport& r
   }
   for (const Contact& contact : touching) lines.push_back(contact.what + ": " + contact.advice);
   // What is open is closed first; then there are other hints.
-  if (touching.empty() && !more_first && count_of(report, Kind::self_intersection) > 0 &&
-      (!open || sheets > 0)) {
+  if (touching.empty() && !more_first && count_of(report, Kind::self_intersection) > 0 && !open) {
     lines.push_back(
-        sheets > 0 ? "triangles meet: nothing here cuts open sheets along each other"
-        : report.components > 1
-            ? "triangles meet: if bodies overlap, `tetproof union` makes one of them; or mesh them "
-              "one by one"
+        report.components > 1
+            ? "triangles meet: if bodies overlap, `tetproof union` makes one of them, `tetproof "
+              "union --walls` parts for --regions all; or mesh them one by one"
             : "triangles meet: `tetproof union` cuts them there and keeps the outside");
   }
   return lines;
