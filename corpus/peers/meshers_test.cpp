@@ -204,7 +204,8 @@ TEST_F(Meshers, Peers) {
   script("adapters/wheels/gmsh_wheel.py", "echo 'no package gmsh' >&2; exit 1");
   script("adapters/wheels/contract.py", "");
   setenv("PEERS_PYTHON", script("python", "exec /bin/sh \"$@\"").c_str(), 1);
-  EXPECT_NE(why_not_at_hand("gmsh-4.15-hxt", programs_).find("ci/campaigns/peers"), std::string::npos);
+  EXPECT_NE(why_not_at_hand("gmsh-4.15-hxt", programs_).find("ci/campaigns/peers"),
+            std::string::npos);
   script("adapters/wheels/gmsh_wheel.py", "echo gmsh 4.15");
   EXPECT_EQ(why_not_at_hand("gmsh-4.15-hxt", programs_), "");
   EXPECT_EQ(command("gmsh-4.15-hxt"),
