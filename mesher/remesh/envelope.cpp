@@ -1,9 +1,12 @@
 #include "mesher/remesh/envelope.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace delmesher::remesh {
 namespace {
+
+constexpr std::size_t kMostCovers = 16;  // of a piece that is not split
 
 std::vector<Box> boxes_of(const std::vector<Simplex>& simplices) {
   std::vector<Box> boxes;
@@ -14,15 +17,17 @@ std::vector<Box> boxes_of(const std::vector<Simplex>& simplices) {
 
 }  // namespace
 
-Envelope::Envelope(std::vector<Simplex> given, double distance)
+Envelope::Envelope(std::vector<Simplex> given, double distance, std::vector<std::uint8_t> counts)
     : distance_(distance),
       given_(std::move(given)),
       there_(given_),
+      counts_(std::move(counts)),
       given_boxes_(boxes_of(given_)),
       there_boxes_(boxes_of(given_)),
       coverage_(distance) {
+  counts_.resize(given_.size(), 1);
   for (std::uint32_t i = 0; i < given_.size(); ++i) {
-    cover_.push_back({i});
+    pieces_.push_back({given_[i], i, {i}});
     covered_by_.push_back({i});
   }
 }
@@ -38,8 +43,9 @@ Box Envelope::grown(Box box) const {
 bool Envelope::is_near(const Vec3& p, std::span<const std::uint32_t> there) const {
   const double least = distance_ * distance_;
   return std::ranges::any_of(there, [&](std::uint32_t t) {
-    return std::ranges::any_of(
-        covered_by_[t], [&](std::uint32_t g) { return squared_distance(p, given_[g]) < least; });
+    return std::ranges::any_of(covered_by_[t], [&](std::uint32_t n) {
+      return squared_distance(p, given_[pieces_[n].given]) < least;
+    });
   });
 }
 
@@ -47,8 +53,8 @@ Vec3 Envelope::nearest_given(const Vec3& p, std::span<const std::uint32_t> there
   Vec3 best = p;
   double least = HUGE_VAL;
   for (const std::uint32_t t : there) {
-    for (const std::uint32_t g : covered_by_[t]) {
-      const Vec3 q = nearest_point(p, given_[g]);
+    for (const std::uint32_t n : covered_by_[t]) {
+      const Vec3 q = nearest_point(p, given_[pieces_[n].given]);
       const double d = squared_norm(subtract(p, q));
       if (d >= least) continue;
       least = d;
@@ -66,16 +72,18 @@ bool Envelope::is_covered_by_given(const Simplex& simplex) {
     if (given_[g].label == simplex.label) coverage_.add(g, given_[g]);
     return true;
   };
-  if (!many) std::ranges::for_each(affected_, add);
+  if (!many) {
+    for (const std::uint32_t n : affected_) add(pieces_[n].given);
+  }
   return coverage_.covers(simplex, affected_.size(), [&](const Vec3& p) {
     given_boxes_.query(grown({p, p}), add);
   });
 }
 
-bool Envelope::still_covers(std::uint32_t given, std::span<const std::uint32_t> removed,
+bool Envelope::still_covers(const Piece& piece, std::span<const std::uint32_t> removed,
                             std::span<const Simplex> added) {
   coverage_.clear();
-  const Simplex& simplex = given_[given];
+  const Simplex& simplex = piece.simplex;
   const auto add = [&](std::uint32_t t, const Simplex& there) {
     if (there.label == simplex.label) coverage_.add(t, there);
   };
@@ -85,10 +93,10 @@ bool Envelope::still_covers(std::uint32_t given, std::span<const std::uint32_t> 
   for (std::uint32_t i = 0; i < added.size(); ++i) {
     add(static_cast<std::uint32_t>(there_.size()) + i, added[i]);
   }
-  for (const std::uint32_t t : cover_[given]) {
+  for (const std::uint32_t t : piece.cover) {
     if (stays(t)) add(t, there_[t]);
   }
-  return coverage_.covers(simplex, added.size() + cover_[given].size(), [&](const Vec3& p) {
+  return coverage_.covers(simplex, added.size() + piece.cover.size(), [&](const Vec3& p) {
     there_boxes_.query(grown({p, p}), [&](std::uint32_t t) {
       if (stays(t)) add(t, there_[t]);
       return true;
@@ -104,9 +112,10 @@ bool Envelope::allows(std::span<const std::uint32_t> removed, std::span<const Si
   std::ranges::sort(affected_);
   affected_.erase(std::unique(affected_.begin(), affected_.end()), affected_.end());
   new_cover_.clear();
-  for (const std::uint32_t g : affected_) {
-    if (!still_covers(g, removed, added)) return false;
-    new_cover_.push_back(coverage_.used());
+  for (const std::uint32_t n : affected_) {
+    const bool covered = still_covers(pieces_[n], removed, added);
+    if (!covered && counts_[pieces_[n].given] != 0) return false;
+    new_cover_.push_back(covered ? coverage_.used() : std::vector<std::uint32_t>());
   }
   return std::ranges::all_of(added, [&](const Simplex& s) { return is_covered_by_given(s); });
 }
@@ -122,10 +131,50 @@ void Envelope::commit(std::span<const std::uint32_t> removed, std::span<const Si
     covered_by_.emplace_back();
   }
   for (std::size_t i = 0; i < affected_.size(); ++i) {
-    const std::uint32_t g = affected_[i];
-    for (const std::uint32_t t : cover_[g]) std::erase(covered_by_[t], g);
-    cover_[g] = new_cover_[i];
-    for (const std::uint32_t t : cover_[g]) covered_by_[t].push_back(g);
+    set_cover(affected_[i], std::move(new_cover_[i]));
+    split(affected_[i]);
+  }
+}
+
+void Envelope::set_cover(std::uint32_t piece, std::vector<std::uint32_t> cover) {
+  for (const std::uint32_t t : pieces_[piece].cover) std::erase(covered_by_[t], piece);
+  pieces_[piece].cover = std::move(cover);
+  for (const std::uint32_t t : pieces_[piece].cover) covered_by_[t].push_back(piece);
+}
+
+// In the middles of its sides, if many cover it. It is covered as before, so its parts are, if not
+// for roundings.
+void Envelope::split(std::uint32_t piece) {
+  const std::vector<std::uint32_t> cover = pieces_[piece].cover;
+  if (cover.size() <= kMostCovers) return;
+  const Simplex whole = pieces_[piece].simplex;
+  const auto& [a, b, c] = whole.corner;
+  const auto middle = [](const Vec3& p, const Vec3& q) {
+    return add_scaled(p, 0.5, subtract(q, p));
+  };
+  std::vector<Simplex> parts;
+  if (whole.is_segment) {
+    parts = {Simplex(a, middle(a, b)), Simplex(middle(a, b), b)};
+  } else {
+    const Vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const std::array<Vec3, 3>& part :
+         {std::array<Vec3, 3>{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+      parts.emplace_back(part, whole.label);
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> covers;
+  for (const Simplex& part : parts) {
+    coverage_.clear();
+    for (const std::uint32_t t : cover) coverage_.add(t, there_[t]);
+    if (!coverage_.covers(part, cover.size(), [](const Vec3&) {})) return;
+    covers.push_back(coverage_.used());
+  }
+  const std::uint32_t given = pieces_[piece].given;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto part = i == 0 ? piece : static_cast<std::uint32_t>(pieces_.size());
+    if (i != 0) pieces_.push_back({parts[i], given, {}});
+    pieces_[part].simplex = parts[i];
+    set_cover(part, std::move(covers[i]));
   }
 }
 

@@ -103,6 +103,25 @@ std::optional<Patch> flip_patch(const TriangleMesh& mesh, VertexId a, VertexId b
   return patch;
 }
 
+std::optional<Patch> bypass_patch(const TriangleMesh& mesh, VertexId a, VertexId b, VertexId v) {
+  const std::vector<std::uint32_t> at = mesh.triangles_at(a, b);
+  if (at.size() != 2) return std::nullopt;
+  const std::size_t flat = contains(mesh.triangle(at[0]), v) ? 0 : 1;
+  const Triangle& other = mesh.triangle(at[1 - flat]);
+  const VertexId w = third(other, a, b);
+  if (w == v || !mesh.triangles_at(v, w).empty()) return std::nullopt;
+  Patch patch;
+  patch.removed = at;
+  patch.added = {with(other, b, v), with(other, a, v)};
+  patch.labels = {mesh.label(at[1 - flat]), mesh.label(at[1 - flat])};
+  patch.swept = {{a, b, v, w}};
+  patch.removed_lines = {mesh.line_at(a, b)};
+  for (const VertexId end : {a, b}) {
+    if (mesh.line_at(end, v) == kNone) patch.added_lines.push_back({end, v});
+  }
+  return patch;
+}
+
 Patch split_patch(const TriangleMesh& mesh, VertexId a, VertexId b, VertexId p) {
   Patch patch;
   for (const std::uint32_t t : mesh.triangles_at(a, b)) {

@@ -10,6 +10,7 @@
 
 #include "mesher/delmesher.h"
 #include "mesher/remesh/coverage.h"
+#include "mesher/remesh/shape.h"
 #include "mesher/remesh/triangle_mesh.h"
 #include "mesher/surface/validity.h"
 
@@ -139,6 +140,61 @@ TEST(Remesh, ABoxIsTwelveTriangles) {
   for (const std::int32_t label : result.surface.labels) ++triangles[label];
   EXPECT_EQ(triangles.size(), 6U);
   for (const auto& [label, count] : triangles) EXPECT_EQ(count, 2) << label;
+}
+
+double least_angle(const Surface& surface) {  // degrees
+  double least = 1;
+  for (const auto& [a, b, c] : surface.triangles) {
+    least = std::min(least,
+                     least_sine({surface.vertices[a], surface.vertices[b], surface.vertices[c]}));
+  }
+  return std::asin(least) * 180 / M_PI;
+}
+
+// Points come along narrow strips, and stay.
+TEST(Remesh, APlateHasRoundTriangles) {
+  const Surface given = box(1, {0, 0, 0}, {150, 150, 3});
+  const RemeshGoals goals{.tolerance = 0.2};
+  const Remeshed result = remeshed(given, goals);
+  expect_laws(given, goals, result);
+  EXPECT_LT(least_angle(given), 2);
+  EXPECT_GT(least_angle(result.surface), 14.47);
+  EXPECT_LT(result.surface.triangles.size(), 1000U);
+}
+
+// A box with a step across its top.
+Surface stepped_box(double height) {
+  const std::array<std::array<double, 2>, 6> outline = {
+      {{0, 0}, {1, 0}, {1, 1}, {0.4, 1}, {0.4, 1 + height}, {0, 1 + height}}};
+  Surface surface;
+  for (const double z : {0.0, 1.0}) {
+    for (const auto& [x, y] : outline) surface.vertices.push_back({x, y, z});
+  }
+  const std::array<Triangle, 4> front = {{{0, 1, 3}, {1, 2, 3}, {0, 3, 4}, {0, 4, 5}}};
+  for (const auto& [a, b, c] : front) {
+    surface.triangles.push_back({a, c, b});
+    surface.triangles.push_back({a + 6, b + 6, c + 6});
+  }
+  for (VertexId i = 0; i < 6; ++i) {
+    const VertexId j = (i + 1) % 6;
+    surface.triangles.push_back({i, j, j + 6});
+    surface.triangles.push_back({i, j + 6, i + 6});
+  }
+  return surface;
+}
+
+// What low triangles bend by is no line; a step that is higher than the tolerance stays.
+TEST(Remesh, LowStepsGoAndHighOnesStay) {
+  const RemeshGoals goals{.tolerance = 0.01};
+  const Surface low = stepped_box(goals.tolerance / 20), high = stepped_box(2 * goals.tolerance);
+  const Remeshed flat = remeshed(low, goals), kept = remeshed(high, goals);
+  expect_laws(low, goals, flat);
+  EXPECT_EQ(flat.surface.vertices.size(), 8U);
+  expect_laws(high, goals, kept);
+  EXPECT_GE(kept.surface.vertices.size(), 12U);
+  for (const Surface* surface : {&flat.surface, &kept.surface}) {
+    EXPECT_GT(least_angle(*surface), 14.47);
+  }
 }
 
 // Labels are within the tolerance of where they were, too.

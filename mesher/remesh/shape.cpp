@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "mesher/geometry/box_tree.h"
+#include "mesher/predicates/predicates.h"
 
 namespace delmesher::remesh {
 
@@ -63,24 +64,33 @@ std::vector<Side> sides_of(std::span<const Triangle> triangles) {
   return sides;
 }
 
-std::vector<Line> lines_of(const Surface& surface, double steepest) {
-  const auto normal = [&](const Side& side) {
+SurfaceLines lines_of(const Surface& surface, double feature, double tolerance) {
+  const double steepest = std::sqrt(predicates::cosine_squared(feature));
+  const auto corners = [&](const Side& side) -> Corners {
     const auto& [a, b, c] = surface.triangles[side.triangle];
-    return normal_of({surface.vertices[a], surface.vertices[b], surface.vertices[c]});
+    return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
+  const auto normal = [&](const Side& side) { return normal_of(corners(side)); };
   const auto differ = [&](const Side& s, const Side& t) {
     return !surface.labels.empty() && surface.labels[s.triangle] != surface.labels[t.triangle];
   };
   const std::vector<Side> sides = sides_of(surface.triangles);
-  std::vector<Line> lines;
+  SurfaceLines found;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
     while (j < sides.size() && sides[j].is_beside(sides[i])) ++j;
     const Side &s = sides[i], &t = sides[j - 1];
-    const bool is_line = j - i != 2 || differ(s, t) ||
-                         cosine_of_bend(normal(s), s.turned, normal(t), t.turned) < steepest;
-    if (is_line) lines.push_back({s.a, s.b});
+    const bool always = j - i != 2 || differ(s, t);
+    const double cosine = always ? -1 : cosine_of_bend(normal(s), s.turned, normal(t), t.turned);
+    if (!always && !(cosine < steepest)) continue;
+    const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
+    found.lines.push_back({s.a, s.b});
+    found.counts.push_back(always || bend - may_turn(corners(s), tolerance / 8) -
+                                             may_turn(corners(t), tolerance / 8) >
+                                         std::acos(steepest)
+                               ? 1
+                               : 0);
   }
-  return lines;
+  return found;
 }
 
 }  // namespace delmesher::remesh

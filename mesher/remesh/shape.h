@@ -30,6 +30,13 @@ inline double least_sine(const Corners& t) {
   return side[1] > 0 ? norm(normal_of(t)) / std::sqrt(side[1] * side[2]) : 0;
 }
 
+// Above the longest side.
+inline double least_height(const Corners& t) {
+  const double longest =
+      std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
+  return longest > 0 ? norm(normal_of(t)) / longest : 0;
+}
+
 // The sum of squared distances from planes, weighted by areas (Garland and Heckbert 1997).
 struct Quadric {
   std::array<double, 6> a{};  // xx, xy, xz, yy, yz, zz
@@ -64,8 +71,19 @@ inline double cosine_of_bend(const Vec3& m, bool m_is_turned, const Vec3& n, boo
   return (m_is_turned != n_is_turned ? 1 : -1) * dot(m, n) / (norm(m) * norm(n));
 }
 
-// The edges that bend by more than the angle of this cosine, borders of labels, and edges of other
-// than two triangles.
-std::vector<Line> lines_of(const Surface& surface, double steepest);
+// Radians that a triangle may turn by if its vertices move by so much.
+inline double may_turn(const Corners& t, double sway) {
+  return 2 * sway / least_height(t);
+}
+
+struct SurfaceLines {
+  std::vector<Line> lines;
+  // By line: it bends by more than the angle however its vertices move by an eighth of the
+  // tolerance. What low triangles bend by, whose direction says nothing, does not count.
+  std::vector<std::uint8_t> counts;
+};
+// The edges that bend by more than `feature` degrees, borders of labels, and edges of other than
+// two triangles.
+SurfaceLines lines_of(const Surface& surface, double feature, double tolerance);
 
 }  // namespace delmesher::remesh

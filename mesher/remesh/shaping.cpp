@@ -11,12 +11,13 @@ namespace {
 // Sines of the smallest angle: of a triangle that is left alone, and of one that points are for.
 constexpr double kRound = 0.5;
 constexpr double kCramped = 0.45;
-constexpr int kPasses = 30;
-constexpr std::size_t kMostMore = 8;  // times the triangles, for the sake of their shapes
+constexpr int kPasses = 100;
+constexpr std::size_t kMostMore = 8, kAndMore = 10000;  // times the triangles, for their shapes
 
 class Shaping {
  public:
-  explicit Shaping(State& state) : state_(state), mesh_(state.mesh()) {}
+  Shaping(State& state, State::Shapes collapses)
+      : state_(state), mesh_(state.mesh()), collapses_(collapses) {}
 
   bool is_round(std::uint32_t t) const {
     return least_sine(state_.at(mesh_.triangle(t))) >= kRound;
@@ -35,6 +36,7 @@ class Shaping {
 
   State& state_;
   const TriangleMesh& mesh_;
+  const State::Shapes collapses_;
 };
 
 std::array<Line, 3> Shaping::edges_of(std::uint32_t t) const {
@@ -85,14 +87,16 @@ bool Shaping::make_rounder(std::uint32_t t) {
   for (const VertexId v : mesh_.triangle(t)) {
     if (move(v)) return true;
   }
-  return state_.collapse(edges[2][0], edges[2][1]) != kNone || draw_onto_line(t);
+  return state_.collapse(edges[2][0], edges[2][1], collapses_) != kNone || draw_onto_line(t);
 }
 
-// A flat triangle on a line, whose third vertex is free: onto the line with it.
+// A flat triangle on a line: onto the line with its third vertex if that is free, else to that
+// vertex with the line.
 bool Shaping::draw_onto_line(std::uint32_t t) {
   const Line base = edges_of(t)[0];
   const VertexId v = third(mesh_.triangle(t), base[0], base[1]);
-  if (!state_.is_line(base[0], base[1]) || !state_.is_free(v)) return false;
+  if (!state_.is_line(base[0], base[1])) return false;
+  if (!state_.is_free(v)) return state_.lead_line_over(base, v);
   const Vec3 from = state_.at(base[0]), along = subtract(state_.at(base[1]), from);
   const double share = dot(subtract(state_.at(v), from), along) / squared_norm(along);
   if (!(share > 0 && share < 1)) return false;
@@ -134,9 +138,10 @@ bool Shaping::make_room(std::uint32_t t) {
 
 // The least round first, then those that came of it, and those near which room was made.
 void make_rounder(State& state, bool new_points, Control& control) {
-  Shaping shaping(state);
+  // What made room must not collapse again.
+  Shaping shaping(state, new_points ? State::Shapes::rounder : State::Shapes::as_round);
   const TriangleMesh& mesh = state.mesh();
-  const std::size_t most = new_points ? kMostMore * mesh.count() : 0;
+  const std::size_t most = new_points ? kMostMore * mesh.count() + kAndMore : 0;
   std::uint32_t seen = 0;
   std::vector<std::uint32_t> again;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -159,7 +164,7 @@ void make_rounder(State& state, bool new_points, Control& control) {
 }
 
 bool split_long(State& state, Control& control) {
-  const Shaping shaping(state);
+  const Shaping shaping(state, State::Shapes::rounder);
   bool any = false;
   for (std::uint32_t t = 0; t < state.mesh().triangles(); ++t) {
     control.poll(state.mesh().count() / 2);

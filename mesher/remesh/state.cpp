@@ -8,7 +8,11 @@ namespace {
 
 constexpr double kAccepted = 0.34;  // sine of the smallest angle that a collapse may make
 constexpr double kRounder = 1.01;   // times the sine: less is not worth a change
-constexpr double kSharp = -0.5;     // cosine of the bend of lines that may be made
+constexpr double kSharp = -0.5;     // cosine of the bends that may be made
+
+// Of the tolerance: what bends by more than lines do however its vertices move by as much was a
+// line, or is not made.
+constexpr double kSway = 0x1p-6;
 
 PointStore points_of(const Surface& surface) {
   PointStore points;
@@ -47,19 +51,19 @@ double reach_of(const Surface& surface, double tolerance) {
 }  // namespace
 
 State::State(const Surface& surface, const RemeshGoals& goals, const LocalFrame& frame)
-    : State(surface, lines_of(surface, cosine_of(goals.feature)), goals, frame) {}
+    : State(surface, lines_of(surface, goals.feature, goals.tolerance), goals, frame) {}
 
-State::State(const Surface& surface, const std::vector<Line>& lines, const RemeshGoals& goals,
+State::State(const Surface& surface, const SurfaceLines& lines, const RemeshGoals& goals,
              const LocalFrame& frame)
     : goals_(goals),
       frame_(frame),
       steepest_(cosine_of(goals.feature)),
       flattest_(std::sqrt((1 + steepest_) / 2)),
       points_(points_of(surface)),
-      mesh_(surface.triangles, surface.labels, lines, surface.vertices.size()),
+      mesh_(surface.triangles, surface.labels, lines.lines, surface.vertices.size()),
       reach_(reach_of(surface, goals.tolerance)),
       envelope_(triangles_of(surface), reach_),
-      line_envelope_(segments_of(surface, lines), reach_),
+      line_envelope_(segments_of(surface, lines.lines), reach_, lines.counts),
       embedding_(mesh_, envelope_.boxes(), points_, predicates_),
       corners_(surface.vertices.size()),
       quadric_(surface.vertices.size()) {
@@ -68,7 +72,7 @@ State::State(const Surface& surface, const std::vector<Line>& lines, const Remes
   origin_ = add_scaled(box.lo, 0.5, extent);
   diagonal_ = norm(extent);
   for (VertexId v = 0; v < mesh_.vertices(); ++v) {
-    if (is_corner_as_given(v)) corners_[v].push_back(at(v));
+    if (is_corner_as_given(v, lines.counts)) corners_[v].push_back(at(v));
   }
   measure_planes();
 }
@@ -100,10 +104,12 @@ void State::measure_planes() {
 }
 
 // Where lines end, meet or bend, and where the triangles at the vertex do not hang together.
-bool State::is_corner_as_given(VertexId v) const {
+bool State::is_corner_as_given(VertexId v, const std::vector<std::uint8_t>& line_counts) const {
   const std::span<const std::uint32_t> lines = mesh_.lines_at(v);
-  if (!lines.empty()) {
-    if (lines.size() != 2) return true;
+  const auto certain = static_cast<std::size_t>(
+      std::ranges::count_if(lines, [&](std::uint32_t l) { return line_counts[l] != 0; }));
+  if (certain > 2 || (certain == 1 && lines.size() == 1)) return true;
+  if (certain == 2 && lines.size() == 2) {
     std::array<Vec3, 2> way;
     for (std::size_t i = 0; i < 2; ++i) {
       const Line& line = mesh_.line(lines[i]);
@@ -163,14 +169,17 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
                           const std::vector<std::int32_t>& labels, const Patch& patch,
                           bool added) const {
   Bends found;
-  const auto normal = [&](const Side& side) { return normal_of(at(triangles[side.triangle])); };
-  const auto see = [&](const Side& s, const Vec3& n, bool turned, std::int32_t label) {
-    const bool is_of_line = added ? is_line_with(patch, s.a, s.b) : is_line(s.a, s.b);
-    double& least = is_of_line ? found.of_lines : found.of_others;
-    const double cosine = cosine_of_bend(normal(s), s.turned, n, turned);
-    if (!(cosine >= least)) least = cosine;
-    if (is_of_line && labels[s.triangle] == label && !(cosine <= found.flattest_line)) {
-      found.flattest_line = cosine;
+  const double sway = kSway * goals_.tolerance;
+  const auto see = [&](const Side& s, const Corners& other, bool turned, std::int32_t label) {
+    const Corners own = at(triangles[s.triangle]);
+    const double cosine = cosine_of_bend(normal_of(own), s.turned, normal_of(other), turned);
+    if (!(cosine >= found.sharpest)) found.sharpest = cosine;
+    if (added ? is_line_with(patch, s.a, s.b) : is_line(s.a, s.b)) {
+      if (labels[s.triangle] == label) found.lines.push_back({cosine, {s.a, s.b}});
+    } else if (!(cosine >= found.of_others)) {
+      const double certain =
+          std::acos(std::clamp(cosine, -1.0, 1.0)) - may_turn(own, sway) - may_turn(other, sway);
+      if (!(certain <= 0)) found.of_others = std::min(found.of_others, std::cos(certain));
     }
   };
   const std::vector<Side> sides = sides_of(triangles);
@@ -178,7 +187,7 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
     const Side& s = sides[i];
     if (i + 1 < sides.size() && sides[i + 1].is_beside(s)) {
       const Side& t = sides[i + 1];
-      see(s, normal(t), t.turned, labels[t.triangle]);
+      see(s, at(triangles[t.triangle]), t.turned, labels[t.triangle]);
       ++i;
       continue;
     }
@@ -186,18 +195,19 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
       if (std::ranges::find(patch.removed, t) != patch.removed.end()) continue;
       const Triangle& other = mesh_.triangle(t);
       const auto first = static_cast<std::size_t>(std::ranges::find(other, s.a) - other.begin());
-      see(s, normal_of(at(other)), other[(first + 1) % 3] != s.b, mesh_.label(t));
+      see(s, at(other), other[(first + 1) % 3] != s.b, mesh_.label(t));
     }
   }
   return found;
 }
 
-// Nothing bends more than it may, or than something did before; and lines do not become flat.
-bool State::bends_no_more(const Patch& patch) const {
+// The lines that become flat, which then are lines no longer; nothing if anything bends more than
+// it may, or than something did before.
+std::optional<std::vector<Line>> State::flattened(const Patch& patch) const {
   const Bends after = bends(patch.added, patch.labels, patch, true);
-  if (after.of_others >= steepest_ && after.of_lines >= kSharp &&
-      after.flattest_line <= flattest_) {
-    return true;
+  if (after.of_others >= steepest_ && after.sharpest >= kSharp &&
+      after.flattest_line() <= flattest_) {
+    return std::vector<Line>();
   }
   std::vector<Triangle> removed;
   std::vector<std::int32_t> labels;
@@ -206,9 +216,16 @@ bool State::bends_no_more(const Patch& patch) const {
     labels.push_back(mesh_.label(t));
   }
   const Bends before = bends(removed, labels, patch, false);
-  return after.of_others >= std::min(steepest_, before.of_others) &&
-         after.of_lines >= std::min(kSharp, before.of_lines) &&
-         after.flattest_line <= std::max(flattest_, before.flattest_line);
+  if (!(after.of_others >= std::min(steepest_, before.of_others) &&
+        after.sharpest >= std::min(kSharp, before.sharpest))) {
+    return std::nullopt;
+  }
+  const double flattest = std::max(flattest_, before.flattest_line());
+  std::vector<Line> flat;
+  for (const auto& [cosine, line] : after.lines) {
+    if (cosine > flattest) flat.push_back(line);
+  }
+  return flat;
 }
 
 bool State::makes_long_edges(const Patch& patch) const {
@@ -221,8 +238,15 @@ bool State::makes_rounder(const Patch& patch) const {
   return !makes_long_edges(patch) && sine_of_added(patch) > kRounder * sine_of_removed(patch);
 }
 
-bool State::apply(const Patch& patch) {
-  if (!bends_no_more(patch)) return false;
+bool State::apply(Patch patch) {
+  const std::optional<std::vector<Line>> flat = flattened(patch);
+  if (!flat) return false;
+  for (const auto& [a, b] : *flat) {
+    if (const std::uint32_t l = mesh_.line_at(a, b); l != kNone) patch.removed_lines.push_back(l);
+    std::erase_if(patch.added_lines, [&, a = a, b = b](const Line& line) {
+      return line == Line{a, b} || line == Line{b, a};
+    });
+  }
   const std::vector<Simplex> lines = added_lines(patch), triangles = added_triangles(patch);
   const bool has_lines = !patch.removed_lines.empty();
   if (has_lines && !line_envelope_.allows(patch.removed_lines, lines)) return false;
@@ -268,15 +292,15 @@ std::vector<Vec3> State::places(VertexId a, VertexId b) const {
   return found;
 }
 
-VertexId State::collapse(VertexId a, VertexId b) {
+VertexId State::collapse(VertexId a, VertexId b, Shapes shapes) {
   for (const Vec3& place : places(a, b)) {
     VertexId p = kNone;
     if (place == at(b)) {
-      p = collapse_to(a, b, b);
+      p = collapse_to(a, b, b, shapes);
     } else if (place == at(a)) {
-      p = collapse_to(b, a, a);
+      p = collapse_to(b, a, a, shapes);
     } else {
-      p = collapse_to(a, b, add_point(place));
+      p = collapse_to(a, b, add_point(place), shapes);
       if (p == kNone) points_.pop_back();
     }
     if (p != kNone) return p;
@@ -284,7 +308,7 @@ VertexId State::collapse(VertexId a, VertexId b) {
   return kNone;
 }
 
-VertexId State::collapse_to(VertexId a, VertexId b, VertexId p) {
+VertexId State::collapse_to(VertexId a, VertexId b, VertexId p, Shapes shapes) {
   std::vector<Vec3> corners = corners_[a];
   corners.insert(corners.end(), corners_[b].begin(), corners_[b].end());
   if (std::ranges::any_of(corners, [&](const Vec3& c) { return distance(c, at(p)) > reach_; })) {
@@ -292,7 +316,11 @@ VertexId State::collapse_to(VertexId a, VertexId b, VertexId p) {
   }
   const std::optional<Patch> patch = collapse_patch(mesh_, a, b, p);
   if (!patch || patch->added.empty()) return kNone;
-  if (sine_of_added(*patch) < std::min(kAccepted, sine_of_removed(*patch))) return kNone;
+  if (shapes == Shapes::rounder
+          ? !makes_rounder(*patch)
+          : !(sine_of_added(*patch) >= std::min(kAccepted, sine_of_removed(*patch)))) {
+    return kNone;
+  }
   if (makes_long_edges(*patch) || !envelope_.is_near(at(p), patch->removed)) return kNone;
   const Quadric both = of_both(a, b);
   if (!apply(*patch)) return kNone;
@@ -314,6 +342,11 @@ VertexId State::split(const Line& edge, double share) {
 
 bool State::flip(VertexId a, VertexId b) {
   const std::optional<Patch> patch = flip_patch(mesh_, a, b);
+  return patch && makes_rounder(*patch) && apply(*patch);
+}
+
+bool State::lead_line_over(const Line& line, VertexId v) {
+  const std::optional<Patch> patch = bypass_patch(mesh_, line[0], line[1], v);
   return patch && makes_rounder(*patch) && apply(*patch);
 }
 

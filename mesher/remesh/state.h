@@ -39,12 +39,16 @@ class State {
   std::vector<Vec3> places(VertexId a, VertexId b) const;
 
   // Changes that the laws allow are made. The vertex that comes of it, or kNone. Where a collapse
-  // makes triangles less round than those that it removes, and than `kAccepted`, it is not made.
-  VertexId collapse(VertexId a, VertexId b);
-  VertexId collapse_to(VertexId a, VertexId b, VertexId p);  // p is b, or new
+  // makes triangles less round than those that it removes, and than `kAccepted`, it is not made;
+  // with Shapes::rounder only if the least round triangle becomes rounder.
+  enum class Shapes { as_round, rounder };
+  VertexId collapse(VertexId a, VertexId b, Shapes shapes = Shapes::as_round);
+  VertexId collapse_to(VertexId a, VertexId b, VertexId p,  // p is b, or new
+                       Shapes shapes = Shapes::as_round);
   VertexId split(const Line& edge, double share);
   // Changes that make the least round triangle rounder.
   bool flip(VertexId a, VertexId b);
+  bool lead_line_over(const Line& line, VertexId v);
   VertexId move(VertexId v, const Vec3& place);
   // The point of the input, or of its lines for a vertex on a line, that is nearest to p; near v.
   Vec3 nearest_given(VertexId v, const Vec3& p) const;
@@ -52,15 +56,25 @@ class State {
   Surface surface() const;
 
  private:
-  // Cosines of the sharpest bends, and of the flattest one of a line within a label.
+  // Cosines of bends: of the sharpest one, of what others than lines certainly bend by, and of
+  // each line within a label.
   struct Bends {
-    double of_lines = 1, of_others = 1, flattest_line = -1;
+    double sharpest = 1, of_others = 1;
+    std::vector<std::pair<double, Line>> lines;
+
+    double flattest_line() const {
+      double flattest = -1;
+      for (const auto& [cosine, line] : lines) {
+        if (!(cosine <= flattest)) flattest = cosine;
+      }
+      return flattest;
+    }
   };
 
-  State(const Surface& surface, const std::vector<Line>& lines, const RemeshGoals& goals,
+  State(const Surface& surface, const SurfaceLines& lines, const RemeshGoals& goals,
         const LocalFrame& frame);
   void measure_planes();
-  bool is_corner_as_given(VertexId v) const;
+  bool is_corner_as_given(VertexId v, const std::vector<std::uint8_t>& line_counts) const;
   VertexId add_point(const Vec3& place);
 
   std::vector<Simplex> added_triangles(const Patch& patch) const;
@@ -70,12 +84,12 @@ class State {
   bool is_line_with(const Patch& patch, VertexId a, VertexId b) const;
   Bends bends(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& labels,
               const Patch& patch, bool added) const;
-  bool bends_no_more(const Patch& patch) const;
+  std::optional<std::vector<Line>> flattened(const Patch& patch) const;
   bool makes_long_edges(const Patch& patch) const;
   bool makes_rounder(const Patch& patch) const;
   Quadric of_both(VertexId a, VertexId b) const;
   bool may_vanish(VertexId a, VertexId b) const;
-  bool apply(const Patch& patch);
+  bool apply(Patch patch);
 
   const RemeshGoals goals_;
   const LocalFrame frame_;
