@@ -238,7 +238,7 @@ OracleReport check_lines(const WithinTolerance& s) {
   std::vector<Edge> given = edges_of(s.input), lasting = given, made = edges_of(s.own);
   measure(s.input, 0, given);
   measure(s.input, s.allowed / 8, lasting);
-  measure(s.own, std::max(s.slab, s.allowed / 64), made);
+  measure(s.own, s.slab, made);
   const auto is_line = [&](const Edge& e) { return e.border || e.least > s.feature; };
   const auto may_be_line = [&](const Edge& e) { return e.border || e.most >= s.feature; };
   const auto is_edge = [](const Edge&) { return true; };

@@ -5,9 +5,9 @@
 // and every edge that bends by more than the feature angle, is within it of the input's lines,
 // which are the same kinds of edges; each of these is within it of the edges of the mesh, and each
 // corner of the input, where lines end, meet or bend by more than that angle, of a vertex. Angles
-// and distances are in doubles; an edge counts only where it is what it is however its vertices
-// move, those of the input by an eighth of the tolerance, those of the mesh by a 64th and by
-// roundings.
+// and distances are in doubles; an edge counts only where roundings do not decide
+// what it is, and one of the input is asked for only if it is a line however its vertices move by
+// an eighth of the tolerance.
 #pragma once
 
 #include <vector>

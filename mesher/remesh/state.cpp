@@ -8,11 +8,7 @@ namespace {
 
 constexpr double kAccepted = 0.34;  // sine of the smallest angle that a collapse may make
 constexpr double kRounder = 1.01;   // times the sine: less is not worth a change
-constexpr double kSharp = -0.5;     // cosine of the bends that may be made
-
-// Of the tolerance: what bends by more than lines do however its vertices move by as much was a
-// line, or is not made.
-constexpr double kSway = 0x1p-6;
+constexpr double kSharp = -0.5;     // cosine of the bend of lines that may be made
 
 PointStore points_of(const Surface& surface) {
   PointStore points;
@@ -169,25 +165,20 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
                           const std::vector<std::int32_t>& labels, const Patch& patch,
                           bool added) const {
   Bends found;
-  const double sway = kSway * goals_.tolerance;
-  const auto see = [&](const Side& s, const Corners& other, bool turned, std::int32_t label) {
-    const Corners own = at(triangles[s.triangle]);
-    const double cosine = cosine_of_bend(normal_of(own), s.turned, normal_of(other), turned);
-    if (!(cosine >= found.sharpest)) found.sharpest = cosine;
-    if (added ? is_line_with(patch, s.a, s.b) : is_line(s.a, s.b)) {
-      if (labels[s.triangle] == label) found.lines.push_back({cosine, {s.a, s.b}});
-    } else if (!(cosine >= found.of_others)) {
-      const double certain =
-          std::acos(std::clamp(cosine, -1.0, 1.0)) - may_turn(own, sway) - may_turn(other, sway);
-      if (!(certain <= 0)) found.of_others = std::min(found.of_others, std::cos(certain));
-    }
+  const auto normal = [&](const Side& side) { return normal_of(at(triangles[side.triangle])); };
+  const auto see = [&](const Side& s, const Vec3& n, bool turned, std::int32_t label) {
+    const bool is_of_line = added ? is_line_with(patch, s.a, s.b) : is_line(s.a, s.b);
+    double& least = is_of_line ? found.of_lines : found.of_others;
+    const double cosine = cosine_of_bend(normal(s), s.turned, n, turned);
+    if (!(cosine >= least)) least = cosine;
+    if (is_of_line && labels[s.triangle] == label) found.lines.push_back({cosine, {s.a, s.b}});
   };
   const std::vector<Side> sides = sides_of(triangles);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& s = sides[i];
     if (i + 1 < sides.size() && sides[i + 1].is_beside(s)) {
       const Side& t = sides[i + 1];
-      see(s, at(triangles[t.triangle]), t.turned, labels[t.triangle]);
+      see(s, normal(t), t.turned, labels[t.triangle]);
       ++i;
       continue;
     }
@@ -195,7 +186,7 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
       if (std::ranges::find(patch.removed, t) != patch.removed.end()) continue;
       const Triangle& other = mesh_.triangle(t);
       const auto first = static_cast<std::size_t>(std::ranges::find(other, s.a) - other.begin());
-      see(s, at(other), other[(first + 1) % 3] != s.b, mesh_.label(t));
+      see(s, normal_of(at(other)), other[(first + 1) % 3] != s.b, mesh_.label(t));
     }
   }
   return found;
@@ -205,7 +196,7 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
 // it may, or than something did before.
 std::optional<std::vector<Line>> State::flattened(const Patch& patch) const {
   const Bends after = bends(patch.added, patch.labels, patch, true);
-  if (after.of_others >= steepest_ && after.sharpest >= kSharp &&
+  if (after.of_others >= steepest_ && after.of_lines >= kSharp &&
       after.flattest_line() <= flattest_) {
     return std::vector<Line>();
   }
@@ -217,7 +208,7 @@ std::optional<std::vector<Line>> State::flattened(const Patch& patch) const {
   }
   const Bends before = bends(removed, labels, patch, false);
   if (!(after.of_others >= std::min(steepest_, before.of_others) &&
-        after.sharpest >= std::min(kSharp, before.sharpest))) {
+        after.of_lines >= std::min(kSharp, before.of_lines))) {
     return std::nullopt;
   }
   const double flattest = std::max(flattest_, before.flattest_line());

@@ -56,10 +56,9 @@ class State {
   Surface surface() const;
 
  private:
-  // Cosines of bends: of the sharpest one, of what others than lines certainly bend by, and of
-  // each line within a label.
+  // Cosines: of the sharpest bends, and of those of each line within a label.
   struct Bends {
-    double sharpest = 1, of_others = 1;
+    double of_lines = 1, of_others = 1;
     std::vector<std::pair<double, Line>> lines;
 
     double flattest_line() const {
