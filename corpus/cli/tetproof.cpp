@@ -365,7 +365,8 @@ CLI::App* declare_union(CLI::App& tetproof, UnionArguments& a) {
       "become triangles that meet in common vertices and edges alone, those of several "
       "bodies once for each label (for delmesher mesh --regions all)");
   app->add_option("--snap", a.snap,
-                  "With --walls: vertices, edges and faces nearer than this count as touching: a "
+                  "With --walls: vertices, edges and faces nearer than this count as touching, "
+                  "some up to four times as far, too: a "
                   "length, or a fraction of the diagonal as in 1e-6d (what roundings of doubles or "
                   "floats explain)");
   app->footer(

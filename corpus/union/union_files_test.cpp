@@ -76,7 +76,7 @@ TEST_F(UnionFiles, WritesWallsOrSaysWhichSnapDoes) {
       << said();
   EXPECT_FALSE(fs::exists(path("none.stl")));
   EXPECT_EQ(run("--walls --snap 100 " + input + " -o " + path("none.stl")), 5);
-  EXPECT_NE(said().find("no other --snap does it"), std::string::npos) << said();
+  EXPECT_NE(said().find("none of five other lengths does it"), std::string::npos) << said();
   for (const char* wrong : {"--snap 1", "--walls --snap 0", "--walls --snap 1d", "--walls --snap x",
                             "--walls --nonzero"}) {
     EXPECT_EQ(run(wrong + (" " + input) + " -o " + path("none.stl")), 2) << wrong;

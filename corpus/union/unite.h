@@ -55,8 +55,8 @@ struct UnionOptions {
   // of the result; 0: they are left as they are.
   double separate = 0;
   bool walls = false;  // instead of a union: walls.h; not with the others
-  // With walls: what is nearer than this counts as touching. Minus a fraction of the diagonal; 0:
-  // what roundings explain.
+  // With walls: what is nearer than this counts as touching, as may what is nearer than four times
+  // this. Minus a fraction of the diagonal; 0: what roundings explain.
   double snap = 0;
   std::function<bool()> go_on;  // asked many times a second; unite() stops where it says no
 };

@@ -218,7 +218,7 @@ void advise(const Surface& surface, double reach, const std::function<bool()>& g
                       number(other.counts.largest_move);
     return;
   }
-  result.message += "; no other --snap does it: move a body, or leave it out";
+  result.message += "; none of five other lengths does it: move a body, or leave it out";
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ inline constexpr std::tuple kTable{
          .unit = Unit::length_or_share},
         &RemeshOptions::tolerance),
     Row({.name = "feature",
-         .help = "with a tolerance: edges that bend by more stay lines",
+         .help = "with a tolerance: edges that bend by more stay lines, but for those of steps "
+                 "much lower than it",
          .bounds = kDegreesToRight,
          .unit = Unit::degrees,
          .promised = true,

@@ -64,6 +64,31 @@ std::vector<Side> sides_of(std::span<const Triangle> triangles) {
   return sides;
 }
 
+namespace {
+
+// An angle from 0 to 180 degrees, or more, by its cosine and sine: roots are the same everywhere,
+// arcs are not.
+struct Bend {
+  double cosine, sine;
+  bool is_more_than_straight = false;
+
+  explicit Bend(double of) : cosine(of), sine(std::sqrt(1 - of * of)) {}
+  // More by the angle, below 90 degrees, that has this tangent.
+  Bend turned(double tangent) const {
+    const double c = 1 / std::sqrt(1 + tangent * tangent), s = tangent * c;
+    Bend more = *this;
+    more.cosine = cosine * c - sine * s;
+    more.sine = sine * c + cosine * s;
+    more.is_more_than_straight = is_more_than_straight || !(more.sine >= 0);
+    return more;
+  }
+  bool is_less_than(double other_cosine) const {
+    return !is_more_than_straight && other_cosine < cosine;
+  }
+};
+
+}  // namespace
+
 SurfaceLines lines_of(const Surface& surface, double feature, double tolerance) {
   const double steepest = std::sqrt(predicates::cosine_squared(feature));
   const auto corners = [&](const Side& side) -> Corners {
@@ -71,6 +96,8 @@ SurfaceLines lines_of(const Surface& surface, double feature, double tolerance) 
     return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
   const auto normal = [&](const Side& side) { return normal_of(corners(side)); };
+  // The tangent of what a triangle turns by if its vertices move by an eighth of the tolerance.
+  const auto sway = [&](const Side& side) { return tolerance / 4 / least_height(corners(side)); };
   const auto differ = [&](const Side& s, const Side& t) {
     return !surface.labels.empty() && surface.labels[s.triangle] != surface.labels[t.triangle];
   };
@@ -82,13 +109,9 @@ SurfaceLines lines_of(const Surface& surface, double feature, double tolerance) 
     const bool always = j - i != 2 || differ(s, t);
     const double cosine = always ? -1 : cosine_of_bend(normal(s), s.turned, normal(t), t.turned);
     if (!always && !(cosine < steepest)) continue;
-    const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
     found.lines.push_back({s.a, s.b});
-    found.counts.push_back(always || bend - may_turn(corners(s), tolerance / 8) -
-                                             may_turn(corners(t), tolerance / 8) >
-                                         std::acos(steepest)
-                               ? 1
-                               : 0);
+    found.counts.push_back(
+        always || Bend{steepest}.turned(sway(s)).turned(sway(t)).is_less_than(cosine) ? 1 : 0);
   }
   return found;
 }

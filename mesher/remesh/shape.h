@@ -71,11 +71,6 @@ inline double cosine_of_bend(const Vec3& m, bool m_is_turned, const Vec3& n, boo
   return (m_is_turned != n_is_turned ? 1 : -1) * dot(m, n) / (norm(m) * norm(n));
 }
 
-// Radians that a triangle may turn by if its vertices move by so much.
-inline double may_turn(const Corners& t, double sway) {
-  return 2 * sway / least_height(t);
-}
-
 struct SurfaceLines {
   std::vector<Line> lines;
   // By line: it bends by more than the angle however its vertices move by an eighth of the
