@@ -1,12 +1,6 @@
 // Faces that lie on each other but for roundings, triangulated together.
 #pragma once
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Constrained_triangulation_face_base_2.h>
-#include <CGAL/Triangulation_data_structure_2.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <functional>
 #include <map>
 #include <set>
@@ -15,6 +9,7 @@
 #include <vector>
 
 #include "corpus/union/arrangement.h"
+#include "corpus/union/plane_triangulation.h"
 #include "corpus/union/points.h"
 #include "corpus/union/poll.h"
 
@@ -54,13 +49,7 @@ class FlatFaces {
   struct VertexInfo {
     Index number = kNone;
   };
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Exact>;
-  using FaceBase =
-      CGAL::Triangulation_face_base_with_info_2<FaceInfo, Exact,
-                                                CGAL::Constrained_triangulation_face_base_2<Exact>>;
-  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-      Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-      CGAL::Exact_intersections_tag>;
+  using Triangulation = PlaneTriangulation<VertexInfo, FaceInfo, CGAL::Exact_intersections_tag>;
   using VertexHandle = Triangulation::Vertex_handle;
   using FaceHandle = Triangulation::Face_handle;
 

@@ -1,17 +1,13 @@
 #include "corpus/union/flat_sides.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Constrained_triangulation_face_base_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_data_structure_2.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
 
+#include "corpus/union/plane_triangulation.h"
 #include "corpus/union/unite.h"
 #include "oracles/base/union_find.h"
 
@@ -33,13 +29,8 @@ class FlatSide {
   void append_to(std::vector<Piece>& pieces);
 
  private:
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Exact>;
-  using FaceBase =
-      CGAL::Triangulation_face_base_with_info_2<bool, Exact,
-                                                CGAL::Constrained_triangulation_face_base_2<Exact>>;
-  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-      Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-      CGAL::No_constraint_intersection_requiring_constructions_tag>;
+  using Triangulation =
+      PlaneTriangulation<Index, bool, CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
   Exact::Point_2 at(Index point) const { return projected(points_[point], axis_); }
   Triangulation::Vertex_handle vertex(Index point);

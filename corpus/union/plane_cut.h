@@ -1,18 +1,13 @@
 // Triangles of one plane, cut together.
 #pragma once
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Constrained_triangulation_face_base_2.h>
-#include <CGAL/Triangulation_data_structure_2.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <array>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "corpus/union/arrangement.h"
+#include "corpus/union/plane_triangulation.h"
 #include "corpus/union/points.h"
 #include "corpus/union/poll.h"
 
@@ -43,13 +38,7 @@ class PlaneCut {
     Index seen = kNone;                        // by this member last
     std::vector<Index> members;                // here, with Cancelled::kept
   };
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Exact>;
-  using FaceBase =
-      CGAL::Triangulation_face_base_with_info_2<FaceInfo, Exact,
-                                                CGAL::Constrained_triangulation_face_base_2<Exact>>;
-  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-      Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-      CGAL::Exact_intersections_tag>;
+  using Triangulation = PlaneTriangulation<VertexInfo, FaceInfo, CGAL::Exact_intersections_tag>;
   using Corners = std::array<Exact::Point_2, 3>;
 
   Exact::Point_2 at(Index point) const { return projected(points_[point], axis_); }

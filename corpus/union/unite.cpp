@@ -11,9 +11,9 @@
 #include "corpus/union/flat_sides.h"
 #include "corpus/union/joining.h"
 #include "corpus/union/separate.h"
+#include "corpus/union/union_run.h"
 #include "corpus/union/walls.h"
 #include "corpus/union/winding.h"
-#include "corpus/union/words.h"
 #include "oracles/cgal/surface_opinion.h"
 
 namespace tetproof::unite {
@@ -34,9 +34,9 @@ std::uint64_t new_corners(const Points& points, const std::vector<Piece>& pieces
   return count;
 }
 
-class Uniter {
+class Uniter : UnionRun {
  public:
-  explicit Uniter(const UnionOptions& options) : options_(options), poll_(options.go_on) {}
+  explicit Uniter(const UnionOptions& options) : UnionRun(options.go_on), options_(options) {}
 
   UnionResult run(const Surface& surface);
 
@@ -60,42 +60,22 @@ class Uniter {
   bool move_apart(const std::string& where);
   void judge();
   void ask_others() const;
-  bool fail(UnionCode code, std::string message) {
-    result_.code = code;
-    result_.message = std::move(message);
-    return false;
-  }
-  void tell(std::uint64_t count, const char* one, const char* many) {
-    if (count > 0) result_.done.push_back(counted(count, one, many));
-  }
   void tell_arrangement();
   void tell_result();
 
   const UnionOptions& options_;
-  Poll poll_;
-  Soup soup_;
   std::vector<Position> given_;  // vertices, sorted
-  UnionResult result_;
-  bool settled_ = false;  // did the last round only confirm what was there?
+  bool settled_ = false;         // did the last round only confirm what was there?
   std::size_t fewest_needles_ = std::numeric_limits<std::size_t>::max();
 };
 
 bool Uniter::take(const Surface& surface) {
-  if (const std::string defect = defect_of_lists(surface); !defect.empty()) {
-    return fail(UnionCode::unsound, defect);
-  }
-  soup_ = soup_of(surface);
+  if (!take_soup(surface)) return false;
   given_ = soup_.vertices;
   std::sort(given_.begin(), given_.end());
-  UnionCounts& counts = result_.counts;
-  counts.welded = soup_.welded;
-  counts.degenerate = soup_.degenerate;
-  tell(counts.welded, "vertex welded to another at the same place",
-       "vertices welded to others at the same place");
-  tell(counts.degenerate, "triangle without area removed", "triangles without area removed");
   turn_if_inside_out();
-  counts.bodies_before = count_bodies(soup_.triangles);
-  counts.volume_before = volume(soup_);
+  result_.counts.bodies_before = count_bodies(soup_.triangles);
+  result_.counts.volume_before = volume(soup_);
   return true;
 }
 
@@ -305,13 +285,9 @@ void Uniter::judge() {
 }
 
 UnionResult Uniter::run(const Surface& surface) {
-  try {
-    poll_();
+  return result_of([&] {
     if (take(surface) && unite_pieces()) judge();
-  } catch (const Stopped&) {
-    fail(UnionCode::stopped, "interrupted");
-  }
-  return std::move(result_);
+  });
 }
 
 }  // namespace

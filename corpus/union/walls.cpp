@@ -9,7 +9,7 @@
 
 #include "corpus/union/arrangement.h"
 #include "corpus/union/snapping.h"
-#include "corpus/union/words.h"
+#include "corpus/union/union_run.h"
 #include "oracles/surface/surface_validity.h"
 
 namespace tetproof::unite {
@@ -31,9 +31,9 @@ bool is_single(const Surface& surface) {
   });
 }
 
-class Walls {
+class Walls : UnionRun {
  public:
-  Walls(double snap, const std::function<bool()>& go_on) : poll_(go_on), snap_(snap) {}
+  Walls(double snap, const std::function<bool()>& go_on) : UnionRun(go_on), snap_(snap) {}
   UnionResult run(const Surface& surface);
   double reach() const;
 
@@ -50,36 +50,16 @@ class Walls {
   bool cut_all();
   Surface with_all_labels() const;
   void judge();
-  bool fail(UnionCode code, std::string message) {
-    result_.code = code;
-    result_.message = std::move(message);
-    return false;
-  }
-  void tell(std::uint64_t count, const char* one, const char* many) {
-    if (count > 0) result_.done.push_back(counted(count, one, many));
-  }
 
-  Poll poll_;
   double snap_;
-  Soup soup_;  // its labels are numbers of `named_`
   bool single_ = false;
-  std::vector<Labels> named_;
+  std::vector<Labels> named_;  // by the labels of the soup
   std::map<Labels, std::int32_t> names_;
-  UnionResult result_;
 };
 
 bool Walls::take(const Surface& surface) {
-  if (const std::string defect = defect_of_lists(surface); !defect.empty()) {
-    return fail(UnionCode::unsound, defect);
-  }
+  if (!take_soup(surface)) return false;
   single_ = is_single(surface);
-  soup_ = soup_of(surface);
-  UnionCounts& counts = result_.counts;
-  counts.welded = soup_.welded;
-  counts.degenerate = soup_.degenerate;
-  tell(counts.welded, "vertex welded to another at the same place",
-       "vertices welded to others at the same place");
-  tell(counts.degenerate, "triangle without area removed", "triangles without area removed");
   for (std::int32_t& label : soup_.labels) label = name_of({label});
   if (soup_.triangles.empty()) return fail(UnionCode::empty, "there is no triangle");
   if (snap_ < 0) snap_ *= -diagonal(soup_);
@@ -194,13 +174,9 @@ void Walls::judge() {
 }
 
 UnionResult Walls::run(const Surface& surface) {
-  try {
-    poll_();
+  return result_of([&] {
     if (take(surface) && cut_all()) judge();
-  } catch (const Stopped&) {
-    fail(UnionCode::stopped, "interrupted");
-  }
-  return std::move(result_);
+  });
 }
 
 // Which reach does what `reach` does not? Longer ones before shorter ones, which may leave slivers.

@@ -14,6 +14,15 @@ constexpr double kCramped = 0.45;
 constexpr int kPasses = 100;
 constexpr std::size_t kMostMore = 8, kAndMore = 10000;  // times the triangles, for their shapes
 
+// The longest first.
+std::array<Line, 3> edges_of(const State& state, std::uint32_t t) {
+  const auto& [a, b, c] = state.mesh().triangle(t);
+  std::array<Line, 3> edges{{{a, b}, {b, c}, {c, a}}};
+  std::ranges::stable_sort(edges, std::greater{},
+                           [&](const Line& edge) { return state.length(edge); });
+  return edges;
+}
+
 class Shaping {
  public:
   Shaping(State& state, State::Shapes collapses)
@@ -25,7 +34,6 @@ class Shaping {
   bool make_rounder(std::uint32_t t);
   // A point on a long edge.
   bool make_room(std::uint32_t t);
-  std::array<Line, 3> edges_of(std::uint32_t t) const;  // the longest first
 
  private:
   Vec3 better_place(VertexId v) const;
@@ -38,14 +46,6 @@ class Shaping {
   const TriangleMesh& mesh_;
   const State::Shapes collapses_;
 };
-
-std::array<Line, 3> Shaping::edges_of(std::uint32_t t) const {
-  const auto& [a, b, c] = mesh_.triangle(t);
-  std::array<Line, 3> edges{{{a, b}, {b, c}, {c, a}}};
-  std::ranges::stable_sort(edges, std::greater{},
-                           [&](const Line& edge) { return state_.length(edge); });
-  return edges;
-}
 
 // The middle of the triangles around it, or of its line, drawn to the input.
 Vec3 Shaping::better_place(VertexId v) const {
@@ -80,7 +80,7 @@ bool Shaping::move(VertexId v) {
 }
 
 bool Shaping::make_rounder(std::uint32_t t) {
-  const std::array<Line, 3> edges = edges_of(t);
+  const std::array<Line, 3> edges = edges_of(state_, t);
   for (const auto& [a, b] : edges) {
     if (state_.flip(a, b)) return true;
   }
@@ -93,7 +93,7 @@ bool Shaping::make_rounder(std::uint32_t t) {
 // A flat triangle on a line: onto the line with its third vertex if that is free, else to that
 // vertex with the line.
 bool Shaping::draw_onto_line(std::uint32_t t) {
-  const Line base = edges_of(t)[0];
+  const Line base = edges_of(state_, t)[0];
   const VertexId v = third(mesh_.triangle(t), base[0], base[1]);
   if (!state_.is_line(base[0], base[1])) return false;
   if (!state_.is_free(v)) return state_.lead_line_over(base, v);
@@ -108,17 +108,17 @@ bool Shaping::draw_onto_line(std::uint32_t t) {
 
 // Is the smallest angle one between two lines?
 bool Shaping::is_forced(std::uint32_t t) const {
-  const std::array<Line, 3> edges = edges_of(t);
+  const std::array<Line, 3> edges = edges_of(state_, t);
   return state_.is_line(edges[0][0], edges[0][1]) && state_.is_line(edges[1][0], edges[1][1]);
 }
 
 // An edge that is the longest one of its triangles, on the way along longest edges (Rivara 1997).
 Line Shaping::terminal_edge(std::uint32_t t) const {
-  Line edge = edges_of(t)[0];
+  Line edge = edges_of(state_, t)[0];
   for (bool found = true; found;) {
     found = false;
     for (const std::uint32_t s : mesh_.triangles_at(edge[0], edge[1])) {
-      const Line longest = edges_of(s)[0];
+      const Line longest = edges_of(state_, s)[0];
       if (state_.length(longest) <= state_.length(edge)) continue;
       edge = longest;
       found = true;
@@ -130,7 +130,7 @@ Line Shaping::terminal_edge(std::uint32_t t) const {
 
 // Not where edges are shorter than the tolerance: what is so small has no shape.
 bool Shaping::make_room(std::uint32_t t) {
-  return state_.length(edges_of(t)[2]) > state_.tolerance() && !is_forced(t) &&
+  return state_.length(edges_of(state_, t)[2]) > state_.tolerance() && !is_forced(t) &&
          state_.split(terminal_edge(t), 0.5) != kNone;
 }
 
@@ -164,12 +164,11 @@ void make_rounder(State& state, bool new_points, Control& control) {
 }
 
 bool split_long(State& state, Control& control) {
-  const Shaping shaping(state, State::Shapes::rounder);
   bool any = false;
   for (std::uint32_t t = 0; t < state.mesh().triangles(); ++t) {
     control.poll(state.mesh().count() / 2);
     if (!state.mesh().has_triangle(t)) continue;
-    const Line longest = shaping.edges_of(t)[0];
+    const Line longest = edges_of(state, t)[0];
     if (state.is_too_long(longest) && state.split(longest, 0.5) != kNone) any = true;
   }
   return any;
