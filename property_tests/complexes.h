@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -71,6 +72,28 @@ class Builder {
   Surface surface_;
   std::map<std::array<double, 3>, std::size_t> number_;
 };
+
+// Each triangle at the edge from a to b in two, with a vertex on it.
+inline Surface cut_at(Surface surface, const std::array<double, 3>& a,
+                      const std::array<double, 3>& b, const std::array<double, 3>& place) {
+  const auto middle = static_cast<std::uint32_t>(surface.vertices.size());
+  surface.vertices.push_back(place);
+  const auto at = [&](std::uint32_t v) -> const std::array<double, 3>& {
+    return surface.vertices[v];
+  };
+  for (std::size_t t = 0, given = surface.triangles.size(); t < given; ++t) {
+    auto& one = surface.triangles[t];
+    const auto first = std::ranges::find_if(one, [&](std::uint32_t v) { return at(v) == a; }),
+               second = std::ranges::find_if(one, [&](std::uint32_t v) { return at(v) == b; });
+    if (first == one.end() || second == one.end()) continue;
+    auto other = one;
+    other[static_cast<std::size_t>(first - one.begin())] = middle;
+    *second = middle;
+    surface.triangles.push_back(other);
+    surface.labels.push_back(surface.labels[t]);
+  }
+  return surface;
+}
 
 // A number for each cell of a grid, 0 where there is nothing.
 using Cell = std::array<int, 3>;

@@ -331,6 +331,30 @@ TEST_P(SplitDamage, IsCaughtByTheOracleMeantForIt) {
 
 INSTANTIATE_TEST_SUITE_P(All, SplitDamage, testing::ValuesIn(kDamages), test_name<Damage>);
 
+// A vertex is left on a wall, so that two of its triangles are two faces each.
+TEST(SplitWalls, KnowTrianglesInParts) {
+  const Options options = named(splitting({"copper|air"}));
+  const Surface given = row();
+  const Surface parts = cut_at(given, {2, 0, 0}, {2, 2, 2}, {2, 1, 1});
+  const Result result = delmesher::tetrahedralize(parts, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const Told good = told(given, result, options);
+  const VerifyReport report = verified(good);
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
+  EXPECT_EQ(report.unproven, std::vector<std::string>{"--regions (2 triangles are split)"});
+  // One vertex there, or the sets of both sides exchanged.
+  Told joined = good;
+  const auto both = at(joined, {2, 1, 1});
+  replace(joined, both[1], both[0]);
+  EXPECT_EQ(verified(joined).verdict, oracles::Verdict::broken);
+  Told exchanged = good;
+  for (auto& [key, name] : exchanged.mesh.names) {
+    if (key.first != 2) continue;
+    name = name == "copper|air" ? "air|copper" : name == "air|copper" ? "copper|air" : name;
+  }
+  EXPECT_EQ(verified(exchanged).verdict, oracles::Verdict::broken);
+}
+
 // Nobody asked for it.
 TEST(SplitWalls, AreBrokenIfNotPromised) {
   Told lie = honest();

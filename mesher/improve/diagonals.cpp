@@ -327,7 +327,8 @@ class Entry {
     const VertexId p = number_[diagonal_.end[0]], q = number_[diagonal_.end[1]];
     const Vec3 a = at(p), b = at(q), x = at(c.end[0]), y = at(c.end[1]);
     const Vec3 u = subtract(b, a), v = subtract(y, x), w = subtract(x, a);
-    const double t = (w[i] * v[j] - w[j] * v[i]) / (u[i] * v[j] - u[j] * v[i]);
+    double t = (w[i] * v[j] - w[j] * v[i]) / (u[i] * v[j] - u[j] * v[i]);
+    if (!std::isfinite(t)) t = 0.5;  // in doubles they are parallel
     const Vec3 &from = state_.points().nearest(state_.point(p)),
                &to = state_.points().nearest(state_.point(q));
     return add_scaled(from, t, subtract(to, from));

@@ -1,7 +1,6 @@
 #include "mesher/results/region_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <numeric>
@@ -9,10 +8,12 @@
 #include <string>
 #include <utility>
 
+#include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/delmesher/region_name.h"
 #include "mesher/geometry/vector.h"
 #include "mesher/results/split_walls.h"
+#include "mesher/tetmesh/boundary_sides.h"
 
 namespace delmesher::results {
 namespace {
@@ -21,39 +22,76 @@ using Pair = std::array<RegionId, 2>;  // the smaller one first
 // What is between two regions: the labels that some triangle there has, of each such list one.
 using Walls = std::map<Pair, std::set<std::vector<std::int32_t>>>;
 
-double volume_of(const PointStore& points, const Tet& t) {
-  const Vec3 a = points.nearest(t[0]);
-  const auto from_a = [&](VertexId v) { return subtract(points.nearest(v), a); };
-  return dot(cross(from_a(t[1]), from_a(t[2])), from_a(t[3])) / 6;
+// Per region six times the volume that its triangles bound.
+std::vector<Dyadic> volumes6(const SurfaceTopology& topology, Predicates& predicates,
+                             const ConformingMesh& mesh) {
+  std::vector<std::size_t> first(topology.triangles.size(), mesh.boundary.size());
+  for (std::size_t n = mesh.boundary.size(); n-- > 0;) first[mesh.boundary[n].facet] = n;
+  // In front of each triangle, from where its corners are counter-clockwise, and behind it.
+  std::vector<Pair> sides(topology.triangles.size(), Pair{kOutside, kOutside});
+  for_each_side(mesh, [&](std::size_t n, std::size_t t, int i) {
+    const FacetId facet = mesh.boundary[n].facet;
+    if (first[facet] != n) return;
+    const Tet& v = mesh.tetrahedra[t];
+    const auto& [a, b, c] = kFace[i];
+    const int seen = predicates.orient2d(topology.facet_axis[facet], v[a], v[b], v[c]);
+    sides[facet][seen == topology.facet_axis_sign[facet] ? 1 : 0] = mesh.region[t];
+  });
+  std::vector<Dyadic> volumes(*std::ranges::max_element(mesh.region) + std::size_t{1});
+  for (std::size_t t = 0; t < sides.size(); ++t) {
+    const auto& [front, behind] = sides[t];
+    if (front == behind) continue;
+    std::array<std::array<Dyadic, 3>, 3> x;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = predicates.points().nearest(topology.triangles[t][k]);
+      for (std::size_t axis = 0; axis < 3; ++axis) x[k][axis] = Dyadic::from_double(p[axis]);
+    }
+    const auto minor = [&](std::size_t i, std::size_t j) {
+      return x[1][i] * x[2][j] - x[1][j] * x[2][i];
+    };
+    const Dyadic cone = x[0][0] * minor(1, 2) + x[0][1] * minor(2, 0) + x[0][2] * minor(0, 1);
+    volumes[front] = volumes[front] - cone;
+    volumes[behind] = volumes[behind] + cone;
+  }
+  return volumes;
 }
 
-// Of volumes that are equal but for roundings, the region at the first triangle comes first.
-void sort_by_volume(const PointStore& points, ConformingMesh& mesh,
+// Of a positive number, to be compared: the nearest one of 24 bits, of two the larger.
+std::pair<std::int64_t, std::uint64_t> rounded(const Dyadic& x) {
+  constexpr std::size_t kBits = 24;
+  const std::size_t length = x.mantissa.bit_length();
+  const auto exponent = static_cast<std::int64_t>(x.exponent) + static_cast<std::int64_t>(length);
+  const std::uint64_t bits = length > kBits
+                                 ? ((x.mantissa >> (length - kBits - 1)).data()[0] + 1) / 2
+                                 : x.mantissa.data()[0] << (kBits - length);
+  if (bits >> kBits != 0) return {exponent + 1, bits / 2};
+  return {exponent, bits};
+}
+
+// The volumes become those of the new numbers.
+void sort_by_volume(std::vector<Dyadic>& volumes, ConformingMesh& mesh,
                     std::vector<MeshRegion>& regions) {
-  const std::size_t count = *std::ranges::max_element(mesh.region);
-  std::vector<double> volume(count + 1, 0);
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    volume[mesh.region[t]] += volume_of(points, mesh.tetrahedra[t]);
-  }
-  std::vector<FacetId> first(count + 1, kNone);
+  std::vector<FacetId> first(volumes.size(), kNone);
   const std::vector<Pair> beside = regions_beside(mesh);
   for (std::size_t n = 0; n < beside.size(); ++n) {
     for (const RegionId region : beside[n]) {
       first[region] = std::min(first[region], mesh.boundary[n].facet);
     }
   }
-  std::vector<RegionId> order(count), number(count + 1, kOutside);
-  std::iota(order.begin(), order.end(), kInside);
-  const double largest = *std::ranges::max_element(volume);
-  std::ranges::stable_sort(order, [&](RegionId i, RegionId j) {
-    const auto u = static_cast<float>(volume[i] / largest),
-               v = static_cast<float>(volume[j] / largest);
+  std::vector<RegionId> order(volumes.size()), number(volumes.size());
+  std::iota(order.begin(), order.end(), kOutside);
+  std::ranges::stable_sort(order.begin() + 1, order.end(), [&](RegionId i, RegionId j) {
+    const auto u = rounded(volumes[i]), v = rounded(volumes[j]);
     return u != v ? u > v : first[i] < first[j];
   });
+  std::vector<Dyadic> sorted;
   for (const RegionId region : order) {
-    regions.emplace_back().volume = volume[region];
-    number[region] = static_cast<RegionId>(regions.size());
+    number[region] = static_cast<RegionId>(sorted.size());
+    sorted.push_back(std::move(volumes[region]));
+    if (region != kOutside)
+      regions.emplace_back().volume = round_to_double(sorted.back()).value / 6;
   }
+  volumes = std::move(sorted);
   for (RegionId& region : mesh.region) region = number[region];
 }
 
@@ -149,11 +187,16 @@ std::map<std::int32_t, std::array<std::uint32_t, 2>> open_labels(
 
 class Lister {
  public:
-  Lister(const surface::MergedSurface& merged, const PointStore& points, ConformingMesh& mesh)
-      : merged_(merged), points_(points), mesh_(mesh), open_(open_labels(merged)) {}
+  Lister(const surface::MergedSurface& merged, const SurfaceTopology& topology,
+         Predicates& predicates, ConformingMesh& mesh)
+      : merged_(merged),
+        points_(predicates.points()),
+        mesh_(mesh),
+        open_(open_labels(merged)),
+        volumes6_(volumes6(topology, predicates, mesh)) {}
 
   RegionList run() {
-    sort_by_volume(points_, mesh_, list_.report.regions);
+    sort_by_volume(volumes6_, mesh_, list_.report.regions);
     beside_ = regions_beside(mesh_);
     list_.bare = static_cast<std::size_t>(std::ranges::count(beside_, Pair{kOutside, kOutside}));
     find_labels();
@@ -178,14 +221,14 @@ class Lister {
       walls[beside_[n]].insert(std::move(labels));
     }
     if (closed.size() * (walls.size() + regions.size()) > kMostWork) return;
-    std::vector<double> smallest(regions.size(), HUGE_VAL);
+    std::vector<Dyadic> smallest(regions.size());
     Surrounded surrounded(regions.size());
     for (const std::int32_t label : closed) {
       const std::vector<RegionId> inside = surrounded.run(walls, label);
-      double volume = 0;
-      for (const RegionId r : inside) volume += regions[r - 1].volume;
+      Dyadic volume;
+      for (const RegionId r : inside) volume = volume + volumes6_[r];
       for (const RegionId r : inside) {
-        if (volume >= smallest[r - 1]) continue;
+        if (regions[r - 1].label && (volume - smallest[r - 1]).sign() >= 0) continue;
         smallest[r - 1] = volume;
         regions[r - 1].label = label;
       }
@@ -228,7 +271,8 @@ class Lister {
   const PointStore& points_;
   ConformingMesh& mesh_;
   const std::map<std::int32_t, std::array<std::uint32_t, 2>> open_;  // an edge of each label
-  std::vector<Pair> beside_;                                         // per face of the boundary
+  std::vector<Dyadic> volumes6_;  // of the regions, and of the outside
+  std::vector<Pair> beside_;      // per face of the boundary
   RegionList list_;
 };
 
@@ -263,9 +307,9 @@ bool for_each_called(const std::string& name, const Options& options,
 
 }  // namespace
 
-RegionList list_regions(const surface::MergedSurface& merged, const PointStore& points,
-                        ConformingMesh& mesh) {
-  return Lister(merged, points, mesh).run();
+RegionList list_regions(const surface::MergedSurface& merged, const SurfaceTopology& topology,
+                        Predicates& predicates, ConformingMesh& mesh) {
+  return Lister(merged, topology, predicates, mesh).run();
 }
 
 Status choose_regions(const Options& options, const std::vector<MeshRegion>& regions,

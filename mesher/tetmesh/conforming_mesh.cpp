@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "mesher/base/face_key.h"
+#include "mesher/tetmesh/boundary_sides.h"
 #include "mesher/tetmesh/mesh_topology.h"
 
 namespace delmesher::tetmesh {
@@ -31,29 +31,13 @@ bool touches_itself(const ConformingMesh& mesh) {
 }
 
 std::vector<std::array<RegionId, 2>> regions_beside(const ConformingMesh& mesh) {
-  struct Face {
-    std::array<VertexId, 3> key;
-    std::size_t place;
-  };
-  std::vector<Face> faces;
-  for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
-    const auto& [a, b, c] = mesh.boundary[n].vertices;
-    faces.push_back({undirected_face(a, b, c), n});
-  }
-  std::ranges::sort(faces, {}, &Face::key);
-  std::vector<std::array<RegionId, 2>> beside(faces.size(), {kOutside, kOutside});
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const Tet& v = mesh.tetrahedra[t];
-    for (const auto& f : kFace) {
-      const auto key = undirected_face(v[f[0]], v[f[1]], v[f[2]]);
-      const auto face = std::ranges::lower_bound(faces, key, {}, &Face::key);
-      if (face == faces.end() || face->key != key) continue;
-      // A tetrahedron outside changes nothing; of two inside each takes a place.
-      auto& [low, high] = beside[face->place];
-      low = std::exchange(high, std::max(high, mesh.region[t]));
-      low = std::min(low, mesh.region[t]);
-    }
-  }
+  std::vector<std::array<RegionId, 2>> beside(mesh.boundary.size(), {kOutside, kOutside});
+  for_each_side(mesh, [&](std::size_t n, std::size_t t, int) {
+    // A tetrahedron outside changes nothing; of two inside each takes a place.
+    auto& [low, high] = beside[n];
+    low = std::exchange(high, std::max(high, mesh.region[t]));
+    low = std::min(low, mesh.region[t]);
+  });
   return beside;
 }
 

@@ -83,6 +83,20 @@ bool within(const ExactSum& a, const ExactSum& b, long factor, const ExactSum& c
   return abs(mpz_class(a.fixed() - b.fixed())) * factor <= c.fixed();
 }
 
+std::array<std::uint64_t, 2> ExactSum::rounded() const {
+  constexpr std::size_t kBits = 24;
+  mpz_class value = fixed();
+  if (value <= 0) return {0, 0};
+  value <<= kBits;  // so that there are more of them
+  std::size_t length = mpz_sizeinbase(value.get_mpz_t(), 2);
+  mpz_class half = 1;
+  half <<= length - kBits - 1;
+  value += half;
+  length = mpz_sizeinbase(value.get_mpz_t(), 2);
+  value >>= length - kBits;
+  return {length, value.get_ui()};
+}
+
 double ExactSum::value(long exponent) const {
   if (!fractions_) return to_double(ExactNumber(integers_), exponent);
   return to_double(ExactNumber(fixed()), exponent - static_cast<long>(kFraction));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 
 #include "oracles/base/exact_number.h"
@@ -39,6 +40,9 @@ class ExactSum {
   int sign() const { return sgn(fixed()); }
   // Is |a - b| times `factor` at most c? Terms with denominators count in fixed point.
   friend bool within(const ExactSum& a, const ExactSum& b, long factor, const ExactSum& c);
+  // Of a positive sum, to be compared: the nearest number of 24 bits, of two the larger one, as its
+  // exponent and its bits. Else zeros.
+  std::array<std::uint64_t, 2> rounded() const;
   // The value, or the difference, times 2^exponent, to an ulp.
   double value(long exponent) const;
   friend double difference(const ExactSum& a, const ExactSum& b, long exponent);

@@ -25,9 +25,6 @@ namespace tetproof::oracles {
 namespace {
 
 constexpr Index kNobody = kNone;
-// Volumes that differ by less than this share are equal but for roundings: either may be the
-// largest.
-constexpr double kEqualVolumes = 0x1p-22;
 
 // A triangle of the input, once, by the vertices of the mesh where these are at its corners.
 struct Triangle {
@@ -58,7 +55,8 @@ class Parts {
     collect_triangles();
     result_.parts.checked = triangles_.size();
     connect();
-    if (near > 0 && read_split(near)) connect();
+    near_ = near;
+    if (near > 0 && read_split()) connect();
     find_solids();
     check_strays();
     find_parts_of_points();
@@ -75,14 +73,13 @@ class Parts {
     if (splits_walls()) {
       for (const auto& [part, t] : parts()) result_.called[part] = called(t);
     }
-    if (!torn_ && !missing_.empty() && missing_.size() <= kMostSplit &&
-        std::ranges::all_of(missing_, [&](Index t) { return triangles_[t].is_ambiguous; })) {
-      result_.split += missing_.size();
+    if (const std::size_t unread = count_ambiguous(); unread > 0) {
+      result_.split += unread;
       for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
         report->undecided = report->violations > 0;
       }
       result_.parts.notes.emplace_back(
-          "flat tetrahedra lie on triangles that are split: which faces tile these is not decided");
+          "several faces may tile triangles that are split: which ones do is not decided");
     }
     return std::move(result_);
   }
@@ -130,6 +127,7 @@ class Parts {
       triangles_[at->second].even.push_back(even);
     }
     by_corners_ = std::move(known);
+    given_ = static_cast<Index>(triangles_.size());
     for (const Triangle& t : triangles_) corners_.push_back(t.corners);
   }
 
@@ -140,7 +138,7 @@ class Parts {
   }
 
   // Replaces triangles that the mesh has in several faces by these. False if there are none.
-  bool read_split(double near) {
+  bool read_split() {
     std::vector<Index> asked;
     std::vector<Face> faces;
     for (Index n = 0; n < triangles_.size(); ++n) {
@@ -151,7 +149,7 @@ class Parts {
       faces.push_back(t.corners);
     }
     if (asked.empty()) return false;
-    SplitTriangles split(complex_, corners_, near);
+    SplitTriangles split(complex_, mesh_.regions, corners_, near_);
     const std::vector<SplitTriangles::Split> parts = split.read(neighbours_, faces);
     for (std::size_t n = 0; n < asked.size(); ++n) {
       const auto& [own, is_ambiguous] = parts[n];
@@ -180,12 +178,38 @@ class Parts {
       }
       const Index at = k == 0 ? n : static_cast<Index>(triangles_.size());
       by_corners_.emplace(part.sorted, at);
+      result_.pieces.emplace(part.sorted, PartsResult::Piece{part.corners, part.given});
       if (k == 0)
         triangles_[n] = part;
       else
         triangles_.push_back(part);
     }
     return true;
+  }
+
+  // Triangles that are no faces and whose reading is ambiguous, if nothing but these is missing,
+  // and faces of one tetrahedron alone lie on them.
+  std::size_t count_ambiguous() const {
+    std::vector<Face> ambiguous;
+    for (const Triangle& t : triangles_) {
+      const bool is_face = t.beside[0] != kNobody || t.beside[1] != kNobody;
+      if (t.is_ambiguous && !is_face) ambiguous.push_back(t.corners);
+    }
+    const auto is_near = [&](const Face& stray) {
+      return std::ranges::any_of(ambiguous, [&](const Face& t) {
+        return std::ranges::all_of(stray, [&](Index v) {
+          return square_root(squared_distance_to_triangle(points_, v, t), points_.exponent()) *
+                     (1 + 1e-12) <=
+                 near_;
+        });
+      });
+    };
+    const bool explains =
+        !torn_ && !(missing_.empty() && strays_.empty()) && ambiguous.size() <= kMostSplit &&
+        strays_.size() <= kMostSplit &&
+        std::ranges::all_of(missing_, [&](Index t) { return triangles_[t].is_ambiguous; }) &&
+        std::ranges::all_of(strays_, is_near);
+    return explains ? ambiguous.size() : 0;
   }
 
   // Tetrahedra across faces that are not triangles become one part.
@@ -342,12 +366,14 @@ class Parts {
       const Index first = shell.sides.front();
       return is_asked_for(name.empty() ? called(solids_->beside(first / 2, first % 2 != 0)) : name);
     }
-    ExactSum volume;
-    exact::Volume6 volume6;
-    for (const Tet& tet : complex_.tetrahedra) volume += volume6(points_, tet);
-    const double rounding = kEqualVolumes * volume.value(0);
-    if (!(difference(shell.volume, volume, 0) > rounding)) return false;
-    return difference(shells_->without_cavities(shell), volume, 0) > rounding;
+    if (!largest_) {
+      largest_.emplace();
+      for (const auto& [part, volume] : volumes()) {
+        largest_ = std::max(*largest_, volume.rounded());
+      }
+    }
+    return shell.volume.rounded() > *largest_ &&
+           shells_->without_cavities(shell).rounded() > *largest_;
   }
 
   // A tetrahedron of each part.
@@ -454,20 +480,32 @@ class Parts {
     }
   }
 
-  // The largest part has the least number; those of one volume are in any order.
-  void check_order(const std::map<std::int64_t, Index>& part_of) {
-    std::map<Index, double> volumes;
-    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
-      const Interval volume = exact::rough_volume6(points_, complex_.tetrahedra[t]);
-      volumes[part_.find(t)] += volume.middle();
+  // Of parts, what their triangles bound as they are given.
+  std::map<Index, ExactSum> volumes() {
+    std::map<Index, ExactSum> volumes;
+    exact::Volume6 volume6;
+    for (Index n = 0; n < given_; ++n) {
+      const auto& [front, behind] = triangles_[n].beside;
+      const ExactNumber& cone = volume6.from_origin(points_, triangles_[n].whole);
+      if (front != kNobody) volumes[part_.find(front)] -= cone;
+      if (behind != kNobody) volumes[part_.find(behind)] += cone;
     }
-    double least = HUGE_VAL;
+    return volumes;
+  }
+
+  // The largest part has the least number; those of one volume, as it is rounded to be compared,
+  // are in any order.
+  void check_order(const std::map<std::int64_t, Index>& part_of) {
+    if (!result_.parts.passed()) return;  // they are not what the triangles bound
+    const std::map<Index, ExactSum> volumes = this->volumes();
+    std::array<std::uint64_t, 2> least = {~std::uint64_t{0}, 0};
     for (const auto& [region, part] : part_of) {
-      if (volumes.at(part) > least * (1 + kEqualVolumes)) {
+      const auto volume = volumes.at(part).rounded();
+      if (volume > least) {
         result_.regions.fail("region " + std::to_string(region) +
                              " is larger than one of a smaller number");
       }
-      least = std::min(least, volumes.at(part));
+      least = std::min(least, volume);
     }
   }
 
@@ -553,8 +591,10 @@ class Parts {
         continue;
       }
       if (listed[t]++ != 0) result_.list.fail(what + " is listed twice");
-      if (n < mesh_.labels.size() && !input_.labels.empty() &&
-          std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
+      // Which side of a split wall is listed here, and so which label, is seen by its own oracle.
+      const bool is_labelled = n < mesh_.labels.size() && !input_.labels.empty() &&
+                               !(splits_walls() && result_.pieces.contains(triangles_[t].sorted));
+      if (is_labelled && std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
         result_.list.fail(what + " has label " + std::to_string(mesh_.labels[n]) + ", and " +
                           name(triangles_[t]) + " has not");
       } else if (!is_as_given(triangles_[t], n, sort_face(face))) {
@@ -575,14 +615,17 @@ class Parts {
   const ExactPoints& points_;
   const Promise& promise_;
   std::vector<Triangle> triangles_;
+  Index given_ = 0;            // so many are given; the others are further parts of these
   std::vector<Face> corners_;  // of the triangles
   std::unique_ptr<Solids> solids_;
   std::map<Face, Index> by_corners_;
   UnionFind part_{0};
   std::optional<Shells> shells_;
+  std::optional<std::array<std::uint64_t, 2>> largest_;  // the volume of the largest part, rounded
   RegionPoints region_points_;
   std::map<Index, std::vector<Index>> points_of_;  // of parts
-  bool torn_ = false;                              // the mesh has several vertices at one place
+  double near_ = 0;
+  bool torn_ = false;         // the mesh has several vertices at one place
   std::vector<Face> strays_;  // faces of one tetrahedron alone that are no triangles
   std::vector<Face> outer_faces_;
   std::optional<RayTarget> outer_;

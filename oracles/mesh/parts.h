@@ -44,6 +44,12 @@ struct PartsResult {
   // Triangles that are split; and how far a vertex is from that of them on which it belongs.
   std::uint64_t split = 0;
   double deviation = 0;
+  // The faces of these, sorted: which look to where the triangle of the input does.
+  struct Piece {
+    Face corners;
+    Index given;
+  };
+  std::map<Face, Piece> pieces;
   // Per tetrahedron its part; if walls are to be split, what each part is called, if anything.
   std::vector<Index> part;
   std::map<Index, std::string> called;

@@ -1,6 +1,7 @@
 #include "oracles/mesh/split_triangles.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "oracles/base/box_tree.h"
@@ -9,10 +10,11 @@
 
 namespace tetproof::oracles {
 
-SplitTriangles::SplitTriangles(const TetComplex& complex, std::span<const Face> triangles,
-                               double near)
+SplitTriangles::SplitTriangles(const TetComplex& complex, std::span<const std::int64_t> regions,
+                               std::span<const Face> triangles, double near)
     : complex_(complex),
       points_(*complex.points),
+      regions_(regions),
       near_(near),
       is_corner_(complex.points->size(), false) {
   for (const Face& triangle : triangles) {
@@ -42,10 +44,22 @@ std::vector<SplitTriangles::Split> SplitTriangles::read(const Neighbours& neighb
     result[n].is_ambiguous = !find_vertices(asked[n], around, vertices[n]);
   }
   collect_faces(neighbours, vertices);
+  std::map<Index, std::set<Edge>> edges;  // on which a vertex may be
+  for (std::size_t n = 0; n < asked.size(); ++n) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const Index v : vertices[n].on_sides[k]) edges[v].insert(side(asked[n], k));
+    }
+  }
   for (std::size_t n = 0; n < asked.size(); ++n) {
     if (result[n].is_ambiguous) continue;
     result[n] = faces_of(asked[n], vertices[n]);
-    if (!result[n].faces.empty()) deviation_ = std::max(deviation_, vertices[n].deviation);
+    if (is_beside_others(asked[n], vertices[n], edges)) result[n].is_ambiguous = true;
+    for (const Face& face : result[n].faces) {
+      for (const Index v : face) {
+        const auto at = vertices[n].off.find(v);
+        if (at != vertices[n].off.end()) deviation_ = std::max(deviation_, at->second);
+      }
+    }
   }
   return result;
 }
@@ -70,7 +84,7 @@ bool SplitTriangles::find_vertices(const Face& triangle, const std::vector<Index
     }
     if (sides > 1) return false;
     if (sides == 0) vertices.inside.push_back(v);
-    vertices.deviation = std::max(vertices.deviation, off);
+    vertices.off.emplace(v, off);
   }
   for (std::size_t k = 0; k < 3; ++k) {
     if (!sort_along(triangle[k], triangle[(k + 1) % 3], vertices.on_sides[k])) return false;
@@ -91,6 +105,18 @@ bool SplitTriangles::sort_along(Index from, Index to, std::vector<Index>& chain)
   return is_before(last, to);
 }
 
+// Is a vertex on an edge of other triangles, too?
+bool SplitTriangles::is_beside_others(const Face& triangle, const Vertices& vertices,
+                                      const std::map<Index, std::set<Edge>>& edges) {
+  return std::ranges::any_of(vertices.off, [&](const auto& vertex) {
+    const auto at = edges.find(vertex.first);
+    return at != edges.end() && std::ranges::any_of(at->second, [&](const Edge& edge) {
+             return edge != side(triangle, 0) && edge != side(triangle, 1) &&
+                    edge != side(triangle, 2);
+           });
+  });
+}
+
 // Those that have nothing but corners and vertices that were found, at least one of these.
 void SplitTriangles::collect_faces(const Neighbours& neighbours, std::span<const Vertices> found) {
   std::vector<bool> is_found(points_.size(), false);
@@ -108,20 +134,84 @@ void SplitTriangles::collect_faces(const Neighbours& neighbours, std::span<const
       if (!std::ranges::all_of(face, [&](Index v) { return is_corner_[v] || is_found[v]; })) {
         continue;
       }
+      const bool is_wall =
+          across == kNone || (!regions_.empty() && regions_[t] != regions_[across / 4]);
       sort_face(face);
       for (const Index v : face) {
-        if (is_found[v]) faces_at_[v].insert(face);
+        if (is_found[v]) faces_at_[v].emplace(face, is_wall);
       }
     }
   }
 }
 
+class SplitTriangles::Tiles {
+ public:
+  void add(const Face& face, bool is_wall) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      at_[{face[k], face[(k + 1) % 3]}].push_back({face, is_wall});
+    }
+  }
+  // Its edges lie in a line, seen along the normal.
+  void add_flat(const Face& face) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      flat_.insert({face[k], face[(k + 1) % 3]});
+      flat_.insert({face[(k + 1) % 3], face[k]});
+    }
+  }
+
+  // Edges wait for the face on their left, those with one choice first: it may be that of others.
+  Split run(const std::set<Edge>& rim) {
+    Split result;
+    std::set<Edge> done, clear, unclear;
+    const auto wait = [&](const Edge& edge) {
+      (next(edge) != nullptr ? clear : unclear).insert(edge);
+      result.is_ambiguous = result.is_ambiguous || flat_.contains(edge) || choices(edge) > 1;
+    };
+    std::ranges::for_each(rim, wait);
+    while (!clear.empty()) {
+      const Face face = *next(*clear.begin());
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Edge edge = {face[k], face[(k + 1) % 3]}, back = {edge.second, edge.first};
+        if (!done.insert(edge).second || rim.contains(back)) return {{}, result.is_ambiguous};
+        clear.erase(edge);
+        unclear.erase(edge);
+        if (!rim.contains(edge) && !done.contains(back)) wait(back);
+      }
+      result.faces.push_back(face);
+    }
+    if (!unclear.empty()) return {{}, result.is_ambiguous};
+    return result;
+  }
+
+ private:
+  struct Tile {
+    Face face;
+    bool is_wall;
+  };
+
+  std::size_t choices(const Edge& edge) const {
+    const auto at = at_.find(edge);
+    return at == at_.end() ? 0 : at->second.size();
+  }
+  // Null: there is none, or more than one.
+  const Face* next(const Edge& edge) const {
+    const auto at = at_.find(edge);
+    if (at == at_.end()) return nullptr;
+    const std::vector<Tile>& tiles = at->second;
+    if (tiles.size() == 1) return &tiles.front().face;
+    const auto wall = std::ranges::find(tiles, true, &Tile::is_wall);
+    return std::ranges::count(tiles, true, &Tile::is_wall) == 1 ? &wall->face : nullptr;
+  }
+
+  std::map<Edge, std::vector<Tile>> at_;
+  std::set<Edge> flat_;
+};
+
 SplitTriangles::Split SplitTriangles::faces_of(const Face& triangle,
                                                const Vertices& vertices) const {
-  using Edge = std::pair<Index, Index>;
   std::set<Edge> rim;
   std::map<Index, unsigned> known;  // the sides on which a vertex is, a bit for each
-  std::set<Face> faces;
+  FacesAt faces;
   const auto add = [&](Index v, unsigned sides) {
     known[v] |= sides;
     const auto at = faces_at_.find(v);
@@ -140,32 +230,26 @@ SplitTriangles::Split SplitTriangles::faces_of(const Face& triangle,
     known[triangle[(k + 1) % 3]] |= 1U << k;
   }
   const ExactVector normal = exact::area2(points_, triangle[0], triangle[1], triangle[2]);
-  Split result;
-  std::set<Edge> edges;
-  for (Face face : faces) {
+  Tiles tiles;
+  for (const auto& [sorted, is_wall] : faces) {
+    Face face = sorted;
     unsigned common_sides = 7;
-    const bool is_here = std::ranges::all_of(face, [&](Index v) {
+    bool is_here = true;
+    for (const Index v : face) {
       const auto at = known.find(v);
-      if (at == known.end()) return false;
-      common_sides &= at->second;
-      return true;
-    });
+      is_here = is_here && at != known.end();
+      if (is_here) common_sides &= at->second;
+    }
     if (!is_here || common_sides != 0) continue;
     const int turn = sgn(exact::dot(exact::area2(points_, face[0], face[1], face[2]), normal));
-    if (turn == 0) return {{}, true};
     if (turn < 0) std::swap(face[1], face[2]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!edges.emplace(face[k], face[(k + 1) % 3]).second) return {{}, true};
+    if (turn == 0) {
+      tiles.add_flat(face);
+    } else {
+      tiles.add(face, is_wall);
     }
-    result.faces.push_back(face);
   }
-  const bool bounded = std::ranges::all_of(edges, [&](const Edge& edge) {
-    const Edge back = {edge.second, edge.first};
-    return rim.contains(edge) ? !edges.contains(back) : edges.contains(back);
-  });
-  const bool closed =
-      std::ranges::all_of(rim, [&](const Edge& edge) { return edges.contains(edge); });
-  return bounded && closed ? result : Split();
+  return tiles.run(rim);
 }
 
 }  // namespace tetproof::oracles

@@ -10,12 +10,19 @@
 //  - seen along its normal, all of them look to where the triangle does.
 // Then they cover, seen so, exactly once what the chains go round, and they have its boundary: the
 // complex in which they replace it is the input with these vertices, moved by so much.
+//
+// They are found from the chains on, face by face. Where flat tetrahedra lie on the triangle, or
+// another triangle is so near to it, several may be next: then the one that is between two regions
+// of the file, or on the outside, if there is one such. Whatever is chosen, the above proves it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "oracles/mesh/tet_complex.h"
@@ -26,13 +33,15 @@ class SplitTriangles {
  public:
   struct Split {
     std::vector<Face> faces;  // which look to where the triangle does; none if there are none such
-    // A vertex is near two sides, or faces lie on each other: on flat tetrahedra.
+    // There may be others: a vertex is near two sides, or on an edge of other triangles, too, or
+    // several faces were next.
     bool is_ambiguous = false;
   };
 
   // `triangles`: all of the complex, by vertices of the mesh where these are at their corners.
-  // `near`: in input units.
-  SplitTriangles(const TetComplex& complex, std::span<const Face> triangles, double near);
+  // `regions`: of tetrahedra; may be empty. `near`: in input units.
+  SplitTriangles(const TetComplex& complex, std::span<const std::int64_t> regions,
+                 std::span<const Face> triangles, double near);
 
   // Per triangle asked for.
   std::vector<Split> read(const Neighbours& neighbours, std::span<const Face> asked);
@@ -43,20 +52,30 @@ class SplitTriangles {
   struct Vertices {
     std::array<std::vector<Index>, 3> on_sides;  // in their order
     std::vector<Index> inside;
-    double deviation = 0;
+    std::map<Index, double> off;  // of all of them: from where they belong
   };
+  using Edge = std::pair<Index, Index>;
+  using FacesAt = std::map<Face, bool>;  // sorted; are they between two regions?
+  // Faces that may be those of a triangle, turned as it is, by their edges.
+  class Tiles;
 
   bool find_vertices(const Face& triangle, const std::vector<Index>& around,
                      Vertices& vertices) const;
+  static Edge side(const Face& triangle, std::size_t k) {
+    return std::minmax(triangle[k], triangle[(k + 1) % 3]);
+  }
+  static bool is_beside_others(const Face& triangle, const Vertices& vertices,
+                               const std::map<Index, std::set<Edge>>& edges);
   bool sort_along(Index from, Index to, std::vector<Index>& chain) const;
   void collect_faces(const Neighbours& neighbours, std::span<const Vertices> found);
   Split faces_of(const Face& triangle, const Vertices& vertices) const;
 
   const TetComplex& complex_;
   const ExactPoints& points_;
+  const std::span<const std::int64_t> regions_;
   const double near_;
   std::vector<bool> is_corner_;
-  std::map<Index, std::set<Face>> faces_at_;  // of vertices that are near a triangle, sorted
+  std::map<Index, FacesAt> faces_at_;  // of vertices that are near a triangle
   double deviation_ = 0;
 };
 

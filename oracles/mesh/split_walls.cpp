@@ -71,15 +71,25 @@ class SplitWalls {
   struct Wall {
     Index one, other;  // faces, as of Neighbours
     const Given* given;
+    const PartsResult::Piece* piece;  // null: the whole triangle
   };
 
   void find_triangles() {
-    const std::map<Position, Index> first = places_of(input_);
-    triangles_ = triangles_of(input_, first);
+    first_ = places_of(input_);
+    triangles_ = triangles_of(input_, first_);
     for (const Position& p : merged_.mesh.vertices) {
-      const auto found = first.find(p);
-      given_.push_back(found == first.end() ? kNone : found->second);
+      const auto found = first_.find(p);
+      given_.push_back(found == first_.end() ? kNone : found->second);
     }
+  }
+  const PartsResult::Piece* piece(const Face& face) const {
+    const auto found = parts_.pieces.find(sorted(face));
+    return found == parts_.pieces.end() ? nullptr : &found->second;
+  }
+  const Given* triangle(const PartsResult::Piece& piece) const {
+    Face key = input_.triangles[piece.given];
+    for (Index& v : key) v = first_.at(input_.vertices[v]);
+    return &triangles_.at(sorted(key));
   }
   const Given* triangle(const Face& face) const {
     Face key;
@@ -125,9 +135,12 @@ class SplitWalls {
       const Index other = neighbours_.across[face];
       if (other == kNone || other < face) continue;
       const Tet &t = complex_.tetrahedra[face / 4], &u = complex_.tetrahedra[other / 4];
-      const Given* given = triangle(face_of(t, static_cast<int>(face % 4)));
-      if (given != nullptr && is_chosen({face, other, given})) {
-        walls_.push_back({face, other, given});
+      const Face corners = face_of(t, static_cast<int>(face % 4));
+      const PartsResult::Piece* piece = this->piece(corners);
+      const Wall wall = {face, other, piece != nullptr ? triangle(*piece) : triangle(corners),
+                         piece};
+      if (wall.given != nullptr && is_chosen(wall)) {
+        walls_.push_back(wall);
         continue;
       }
       for (Index k = 0; k < 4; ++k) {
@@ -209,8 +222,12 @@ class SplitWalls {
   std::string side_name(const Wall& wall, Index here, Index there) const {
     if (!is_sheet(wall)) return region_name(here / 4) + "|" + region_name(there / 4);
     Face outward = face_of(complex_.tetrahedra[here / 4], static_cast<int>(here % 4));
-    for (Index& v : outward) v = given_[v - complex_.first_vertex];
     Face given = wall.given->corners;
+    if (wall.piece != nullptr) {
+      given = wall.piece->corners;
+    } else {
+      for (Index& v : outward) v = given_[v - complex_.first_vertex];
+    }
     const bool behind = sort_face(outward) == sort_face(given);
     return label_name(wall.given->labels.front()) + (behind ? "|back" : "|front");
   }
@@ -259,6 +276,7 @@ class SplitWalls {
   const Neighbours& neighbours_;
   const PartsResult& parts_;
   const Promise& promise_;
+  std::map<Position, Index> first_;
   GivenTriangles triangles_;
   std::vector<Index> given_;  // per vertex of the merged mesh that of the input, or kNone
   UnionFind sets_;            // of corners k of tetrahedra t, as 4 t + k
