@@ -554,5 +554,37 @@ TEST(ExtremeSizes, AreALimitWhereNumbersDoNotFit) {
   EXPECT_GT(limits, 0U);
 }
 
+// Where doubles have all vertices, in other units it is the same mesh.
+TEST(ExtremeSizes, AreMeshedAlike) {
+  const Surface cube = samples::to_surface(samples::cube().input);
+  std::vector<Options> choices(4);
+  choices[0] = default_options();
+  choices[1].surface = delmesher::SurfaceChoice::keep;
+  choices[2].regions = delmesher::Regions::all;
+  choices[3].tolerance = 0.01;
+  for (std::size_t n = 0; n < choices.size(); ++n) {
+    SCOPED_TRACE(n);
+    const Result expected = delmesher::tetrahedralize(cube, choices[n]);
+    ASSERT_TRUE(expected.status.ok()) << expected.status.message;
+    for (const int power : {-970, -865, -701, -300, 300, 865, 1000}) {
+      SCOPED_TRACE(power);
+      const auto scaled = [&](std::vector<std::array<double, 3>> points) {
+        for (auto& p : points) {
+          for (double& x : p) x = std::ldexp(x, power);
+        }
+        return points;
+      };
+      Surface surface = cube;
+      surface.vertices = scaled(cube.vertices);
+      Options options = choices[n];
+      options.tolerance = std::ldexp(options.tolerance, power);
+      const Result result = delmesher::tetrahedralize(surface, options);
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      EXPECT_EQ(result.mesh.vertices, scaled(expected.mesh.vertices));
+      EXPECT_EQ(result.mesh.tetrahedra, expected.mesh.tetrahedra);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetproof::pipeline_test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <span>
 
 #include "mesher/delmesher/option_table.h"
 
@@ -11,8 +12,6 @@ namespace {
 
 // Tenth powers of lengths of ordinary size, and of a 2^-20th of them, are far from the limits.
 constexpr int kOrdinary = 64;
-// Coordinates in small units must not become subnormal in the given ones.
-constexpr int kSmallest = -700;
 
 using geometry::LocalFrame;
 using Point = std::array<double, 3>;
@@ -21,12 +20,23 @@ void scale(Point& p, int exponent) {
   for (double& x : p) x = std::ldexp(x, exponent);
 }
 
-bool is_exact(const std::vector<Point>& points, int exponent) {
+bool is_exact(std::span<const Point> points, int exponent) {
   return std::all_of(points.begin(), points.end(), [&](const Point& p) {
     return std::all_of(p.begin(), p.end(), [&](double x) {
       return std::ldexp(std::ldexp(x, exponent), -exponent) == x;
     });
   });
+}
+
+bool is_exact(const ExactRecord& record, int exponent) {
+  const auto point_is_exact = [&](const ExactPoint& p) {
+    const Point place = {p.x, p.y, p.z};
+    return p.kind != ExactPoint::Kind::explicit_point || is_exact({&place, 1}, exponent);
+  };
+  return std::ranges::all_of(record.points, point_is_exact) &&
+         std::ranges::all_of(record.planes, [&](const ExactRecord::Plane& plane) {
+           return is_exact(plane.through, exponent);
+         });
 }
 
 void scale(ExactRecord& record, int exponent) {
@@ -58,18 +68,19 @@ int unit_exponent(const std::vector<Point>& vertices) {
   return std::abs(exponent) <= kOrdinary ? 0 : exponent;
 }
 
+Status does_not_fit() {
+  return {StatusCode::limit_reached,
+          "the model is too large or too small for double precision, and some coordinates do not "
+          "fit into other units: scale it",
+          Limit::precision};
+}
+
 // For models of extreme size whose numbers do not fit into other units. Where the stages steer by
 // lengths that over- or underflow, nothing is wrong but that.
 template <class Model, class JobOptions, class Run>
 auto in_given_units(const Model& model, const JobOptions& given, const Run& run) {
   auto result = run(model, given, 0);
-  if (result.status.code == StatusCode::internal_error) {
-    result.status = {StatusCode::limit_reached,
-                     "the model is too large or too small for double precision, and some "
-                     "coordinates do not fit into other units (" +
-                         result.status.message + ")",
-                     Limit::precision};
-  }
+  if (result.status.code == StatusCode::internal_error) result.status = does_not_fit();
   return result;
 }
 
@@ -80,11 +91,12 @@ bool names_places(const AnyResult& result) {
          result.status.code == StatusCode::invalid_mesh;
 }
 
-const std::vector<Point>& written(const Result& result) {
-  return result.mesh.vertices;
+bool is_exact(const Result& result, int exponent) {
+  return is_exact(result.mesh.vertices, exponent) &&
+         is_exact(result.chamfered.vertices, exponent) && is_exact(result.exact, exponent);
 }
-const std::vector<Point>& written(const RemeshResult& result) {
-  return result.surface.vertices;
+bool is_exact(const RemeshResult& result, int exponent) {
+  return is_exact(result.surface.vertices, exponent);
 }
 
 void scale(Result& result, int exponent) {
@@ -111,17 +123,18 @@ template <class Model, class JobOptions, class Run>
 auto scaled_and_back(const Model& model, const JobOptions& given, const Run& run) {
   const int exponent = unit_exponent(model.vertices);
   if (exponent == 0) return run(model, given, 0);
-  if (exponent < kSmallest || !is_exact(model.vertices, -exponent)) {
-    return in_given_units(model, given, run);
-  }
+  if (!is_exact(model.vertices, -exponent)) return in_given_units(model, given, run);
   Model scaled = model;
   for (Point& p : scaled.vertices) scale(p, -exponent);
   JobOptions units = given;
   options::scale_lengths(units, -exponent);
   auto result = run(scaled, units, exponent);
-  // Points that become subnormal are not exact.
-  if (names_places(result) || !is_exact(written(result), exponent)) {
-    return in_given_units(model, given, run);
+  if (names_places(result)) return in_given_units(model, given, run);
+  // Points that become subnormal are not.
+  if (!is_exact(result, exponent)) {
+    result = {};
+    result.status = does_not_fit();
+    return result;
   }
   scale(result, exponent);
   return result;
