@@ -54,11 +54,11 @@ struct ConvertArguments {
 };
 
 struct UnionArguments {
-  std::string input, output;  // surface files
-  bool nonzero = false;       // also inside of what is turned inwards
-  double separate = 0;        // fraction of the diagonal
-  bool walls = false;         // nothing is dropped
-  std::string snap;           // a length, or a fraction of the diagonal
+  std::string input, output;        // surface files
+  bool nonzero = false;             // also inside of what is turned inwards
+  double separate = 0;              // fraction of the diagonal
+  bool walls = false;               // nothing is dropped
+  std::optional<std::string> snap;  // a length, or a fraction of the diagonal
 };
 
 struct ReportArguments {

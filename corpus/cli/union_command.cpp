@@ -1,6 +1,8 @@
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <string>
+#include <system_error>
 
 #include "corpus/campaigns/campaign.h"
 #include "corpus/cli/commands.h"
@@ -12,15 +14,17 @@ namespace {
 
 // As of UnionOptions.
 double snap_of(const UnionArguments& arguments) {
-  if (arguments.snap.empty()) return 0;
+  if (!arguments.snap) return 0;
   if (!arguments.walls) throw UsageError("--snap goes with --walls");
-  const double share = -delmesher::options::share_of(arguments.snap);
+  const std::string& text = *arguments.snap;
+  const double share = -delmesher::options::share_of(text);
   if (share > 0 && share <= 0.01) return -share;
-  char* end = nullptr;
-  const double length = std::strtod(arguments.snap.c_str(), &end);
-  if (*end == 0 && length > 0 && std::isfinite(length)) return length;
-  throw UsageError("--snap " + arguments.snap +
-                   ": a length is expected, or a fraction of the diagonal as in 1e-6d, at most " +
+  double length = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, length);
+  if (error == std::errc() && stop == end && length > 0 && std::isfinite(length)) return length;
+  throw UsageError("--snap '" + text +
+                   "': a length is expected, or a fraction of the diagonal as in 1e-6d, at most " +
                    "0.01d");
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "corpus/union/unite.h"
+
 namespace tetproof::unite {
 
 FlatFaces::VertexHandle FlatFaces::vertex(Index v) {
@@ -36,18 +38,19 @@ bool FlatFaces::triangulate(const std::function<void(const Segment&, Index, doub
     whole = false;
     VertexHandle best;
     double share = 2;
-    for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end();
-         ++v) {
-      if (!CGAL::collinear(a->point(), v->point(), b->point()) ||
-          !CGAL::collinear_are_strictly_ordered_along_line(a->point(), v->point(), b->point())) {
-        continue;
+    FaceHandle beside;
+    int side = 0;
+    for (VertexHandle v = a, next; v != b; v = next) {
+      if (!triangulation_.includes_edge(v, b, next, beside, side)) {
+        throw InternalError("a side is not in the triangulation of flat faces");
       }
+      if (next == b) break;
       const double here =
-          std::sqrt(CGAL::to_double(CGAL::squared_distance(a->point(), v->point()) /
+          std::sqrt(CGAL::to_double(CGAL::squared_distance(a->point(), next->point()) /
                                     CGAL::squared_distance(a->point(), b->point())));
       if (std::fabs(here - 0.5) >= std::fabs(share - 0.5)) continue;
       share = here;
-      best = v;
+      best = next;
     }
     Index& number = best->info().number;
     if (number == kNone) number = vertex_at(s, share);

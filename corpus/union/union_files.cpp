@@ -46,6 +46,7 @@ int exit_code_of(UnionCode code) {
     case UnionCode::empty:
       return kUnsound;
     case UnionCode::imprecise:
+    case UnionCode::out_of_range:
     case UnionCode::inseparable:
       return kLimit;
     case UnionCode::stopped:

@@ -78,7 +78,7 @@ TEST_F(UnionFiles, WritesWallsOrSaysWhichSnapDoes) {
   EXPECT_EQ(run("--walls --snap 100 " + input + " -o " + path("none.stl")), 5);
   EXPECT_NE(said().find("none of five other lengths does it"), std::string::npos) << said();
   for (const char* wrong : {"--snap 1", "--walls --snap 0", "--walls --snap 1d", "--walls --snap x",
-                            "--walls --nonzero"}) {
+                            "--walls --snap ''", "--walls --snap 1e999", "--walls --nonzero"}) {
     EXPECT_EQ(run(wrong + (" " + input) + " -o " + path("none.stl")), 2) << wrong;
   }
 }

@@ -218,16 +218,16 @@ void Uniter::tell_result() {
   tell(counts.flat_vertices, "vertex within a flat side or a straight edge dropped",
        "vertices within flat sides and straight edges dropped");
   result_.done.push_back(counted(counts.bodies_before, "body", "bodies") + " of volume " +
-                         number(counts.volume_before) + " became " +
+                         volume_in_units(counts.volume_before) + " became " +
                          std::to_string(counts.bodies_after) + " of " +
-                         number(counts.volume_after));
+                         volume_in_units(counts.volume_after));
   tell(counts.needles, "triangle removed that was as thin as roundings",
        "triangles removed that were as thin as roundings");
   tell(new_needles().size(), "triangle left that is as thin as roundings",
        "triangles left that are as thin as roundings");
   if (counts.new_points == 0 && counts.largest_move == 0) return;
   result_.done.push_back(
-      "points moved by at most " + number(counts.largest_move) + " by rounding" +
+      "points moved by at most " + length(counts.largest_move) + " by rounding" +
       (counts.rounds > 1 ? ", in " + std::to_string(counts.rounds) + " rounds" : ""));
 }
 
@@ -245,7 +245,7 @@ bool Uniter::move_apart(const std::string& where) {
   const Separation separation = separate(soup_, farthest, poll_);
   if (!separation.done) {
     return fail(UnionCode::inseparable, where + "; they could not be moved apart by at most " +
-                                            number(farthest) + " at " + place(separation.place));
+                                            length(farthest) + " at " + place(separation.place));
   }
   UnionCounts& counts = result_.counts;
   counts.halved_edges = separation.halved;
@@ -255,7 +255,7 @@ bool Uniter::move_apart(const std::string& where) {
   tell(separation.halved, "edge halved for that", "edges halved for that");
   result_.done.push_back(
       "moved apart there: " + counted(separation.copies, "copy of a vertex", "copies of vertices") +
-      ", each by at most " + number(separation.largest_move) + " (allowed: " + number(farthest) +
+      ", each by at most " + length(separation.largest_move) + " (allowed: " + length(farthest) +
       ")");
   return true;
 }

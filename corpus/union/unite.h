@@ -63,11 +63,12 @@ struct UnionOptions {
 
 enum class UnionCode : std::uint8_t {
   done,
-  touching,     // the union is there, but not manifold: parts of it touch
-  unsound,      // a corner that is not a point, or triangles that do not close up
-  empty,        // nothing is inside
-  imprecise,    // new points are too close to each other for doubles
-  inseparable,  // parts touch, and could not be moved apart
+  touching,      // the union is there, but not manifold: parts of it touch
+  unsound,       // a corner that is not a point, or triangles that do not close up
+  empty,         // nothing is inside
+  imprecise,     // new points are too close to each other for doubles
+  out_of_range,  // coordinates become subnormal
+  inseparable,   // parts touch, and could not be moved apart
   stopped
 };
 

@@ -17,9 +17,11 @@ namespace {
 
 using delmesher::Surface;
 
-// Is it a float, or text of as few digits?
+// Has it the bits of a float, or is it text of as few digits?
 bool is_single(double x) {
-  if (static_cast<double>(static_cast<float>(x)) == x) return true;
+  int exponent = 0;
+  const double bits = std::ldexp(std::frexp(x, &exponent), 24);
+  if (bits == std::trunc(bits)) return true;
   char text[32];
   std::snprintf(text, sizeof text, "%.8g", x);
   return std::strtod(text, nullptr) == x;
@@ -35,13 +37,14 @@ class Walls : UnionRun {
  public:
   Walls(double snap, const std::function<bool()>& go_on) : UnionRun(go_on), snap_(snap) {}
   UnionResult run(const Surface& surface);
-  double reach() const;
+  double given_reach() const { return std::ldexp(reach(), unit_); }
 
  private:
   static constexpr int kRounds = 12;
   using Labels = std::vector<std::int32_t>;  // ascending, without repetition
 
   bool take(const Surface& surface);
+  double reach() const;
   std::int32_t name_of(Labels labels);
   std::int32_t labels_of(const Piece& piece);
   const Labels& named(std::int32_t name) const { return named_[static_cast<std::size_t>(name)]; }
@@ -62,7 +65,12 @@ bool Walls::take(const Surface& surface) {
   single_ = is_single(surface);
   for (std::int32_t& label : soup_.labels) label = name_of({label});
   if (soup_.triangles.empty()) return fail(UnionCode::empty, "there is no triangle");
-  if (snap_ < 0) snap_ *= -diagonal(soup_);
+  if (snap_ < 0) {
+    snap_ *= -diagonal(soup_);
+  } else if (snap_ > 0) {
+    // Beyond these nothing changes.
+    snap_ = std::clamp(std::ldexp(snap_, -unit_), 0x1p-200, 0x1p200);
+  }
   return true;
 }
 
@@ -102,7 +110,7 @@ bool Walls::snap_together() {
     snapped = snap(soup_, reach, poll_);
   }
   if (!snapped.done) {
-    return fail(UnionCode::imprecise, "what is within " + number(reach) +
+    return fail(UnionCode::imprecise, "what is within " + length(reach) +
                                           " of each other does not become one near " +
                                           place(snapped.vertices[snapped.place]));
   }
@@ -116,7 +124,7 @@ bool Walls::snap_together() {
   }
   Soup together = soup_of(surface);
   if (together.triangles.empty()) {
-    return fail(UnionCode::imprecise, "all is within " + number(reach) + " of each other");
+    return fail(UnionCode::imprecise, "all is within " + length(reach) + " of each other");
   }
   soup_ = std::move(together);
   return true;
@@ -165,7 +173,7 @@ void Walls::judge() {
                          std::to_string(result_.surface.triangles.size() - soup_.triangles.size()) +
                          " times repeated for a further label");
   if (counts.largest_move > 0) {
-    result_.done.push_back("the surface moved by at most " + number(counts.largest_move) +
+    result_.done.push_back("the surface moved by at most " + length(counts.largest_move) +
                            ", where parts lay on each other but for roundings, or were cut");
   }
   const oracles::OracleReport valid =
@@ -184,7 +192,7 @@ void advise(const Surface& surface, double reach, const std::function<bool()>& g
             UnionResult& result) {
   for (const int exponent : {2, -2, 4, -4, 6}) {
     const std::string length = number(std::ldexp(reach, exponent));
-    const UnionResult other = Walls(std::stod(length), go_on).run(surface);
+    const UnionResult other = Walls(std::strtod(length.c_str(), nullptr), go_on).run(surface);
     if (other.code == UnionCode::stopped) {
       result = other;
       return;
@@ -203,7 +211,7 @@ UnionResult cut_into_walls(const Surface& surface, double snap,
                            const std::function<bool()>& go_on) {
   Walls walls(snap, go_on);
   UnionResult result = walls.run(surface);
-  if (result.code == UnionCode::imprecise) advise(surface, walls.reach(), go_on, result);
+  if (result.code == UnionCode::imprecise) advise(surface, walls.given_reach(), go_on, result);
   return result;
 }
 

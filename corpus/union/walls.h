@@ -8,7 +8,8 @@
 //   with each of the labels of the triangles that contain it.
 // - Vertices that are left are where they were; `largest_move` bounds how far the surface moved.
 // - What comes out stays as it is when it goes in once more.
-// - The same input gives the same result.
+// - The same input gives the same result. Times a power of two it gives the same times that, or no
+//   complex where coordinates would be subnormal; but text of few digits has more of them then.
 //
 // The reach is `snap`, or if that is 0, a few units in the last place of the largest coordinate: of
 // single precision if no coordinate has more digits (binary STL and most text have not), else of

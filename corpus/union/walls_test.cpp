@@ -206,8 +206,65 @@ TEST(Walls, AreCutByOpenSheets) {
   // Once more it is what it is.
   const UnionResult again = cut_into_walls(result.surface, 0, {});
   EXPECT_EQ(again.surface.vertices, result.surface.vertices);
-  EXPECT_EQ(again.surface.triangles.size(), result.surface.triangles.size());
+  EXPECT_EQ(again.surface.triangles, result.surface.triangles);
+  EXPECT_EQ(again.surface.labels, result.surface.labels);
   EXPECT_EQ(again.counts.cut + again.counts.pairs, 0U);
+}
+
+// Bodies that touch, overlap and contain each other, roundings apart.
+Surface turned_blocks(Placing placing) {
+  Surface surface = surface_of_blocks({{{0, 0, 0}, {2, 2, 2}},
+                                       {{2, 1, 0}, {4, 3, 2}},
+                                       {{1, 1, 1}, {3, 3, 3}},
+                                       {{0, 0, 2}, {1, 1, 3}}});
+  place(surface, Placing::turned);
+  place(surface, placing);
+  return surface;
+}
+
+TEST(Walls, ScaleWithTheirInput) {
+  for (const Placing placing : {Placing::given, Placing::single}) {
+    const Surface surface = turned_blocks(placing);
+    const double length = placing == Placing::given ? 0x1p-20 : 0;
+    const UnionResult expected = cut_into_walls(surface, length, {});
+    ASSERT_EQ(expected.code, UnionCode::done) << expected.message;
+    ASSERT_GT(expected.counts.largest_move, 0);
+    for (const int exponent : {-900, -700, -500, -250, -100, -64, -3, 40, 130, 300, 600, 900}) {
+      SCOPED_TRACE(exponent);
+      const auto scaled = [&](Surface s) {
+        shapes::move(s, [&](const Point& p) {
+          return Point{std::ldexp(p[0], exponent), std::ldexp(p[1], exponent),
+                       std::ldexp(p[2], exponent)};
+        });
+        return s;
+      };
+      const UnionResult result = cut_into_walls(scaled(surface), std::ldexp(length, exponent), {});
+      ASSERT_EQ(result.code, UnionCode::done) << result.message;
+      EXPECT_EQ(result.surface.vertices, scaled(expected.surface).vertices);
+      EXPECT_EQ(result.surface.triangles, expected.surface.triangles);
+      EXPECT_EQ(result.surface.labels, expected.surface.labels);
+      EXPECT_EQ(result.counts.largest_move, std::ldexp(expected.counts.largest_move, exponent));
+      // So does the union.
+      EXPECT_EQ(unite(scaled(surface)).surface.vertices, scaled(unite(surface).surface).vertices);
+    }
+  }
+}
+
+TEST(Walls, NeedCoordinatesThatDoublesHave) {
+  Surface surface = turned_blocks(Placing::single);
+  shapes::move(surface, [](const Point& p) {
+    return Point{std::ldexp(p[0], -1052), std::ldexp(p[1], -1052), std::ldexp(p[2], -1052)};
+  });
+  EXPECT_EQ(cut_into_walls(surface, 0, {}).code, UnionCode::out_of_range);
+  // One that vanishes beside the others.
+  surface = turned_blocks(Placing::single);
+  shapes::move(surface, [](const Point& p) {
+    return Point{std::ldexp(p[0], 900), std::ldexp(p[1], 900), p[2]};
+  });
+  surface.vertices[0][2] = 0x1p-300;
+  const UnionResult result = cut_into_walls(surface, 0, {});
+  EXPECT_EQ(result.code, UnionCode::out_of_range);
+  EXPECT_EQ(result.message.find("; "), std::string::npos) << "no length does it";
 }
 
 }  // namespace
