@@ -438,11 +438,16 @@ class Entry {
 class Handover {
  public:
   Handover(const SurfaceTopology& planarized, const SurfaceTopology& as_given,
-           const PointStore& points)
-      : as_given_(as_given), points_(points), locator_(planarized, points), corners_(as_given) {}
+           Predicates& predicates)
+      : planarized_(planarized),
+        as_given_(as_given),
+        predicates_(predicates),
+        points_(predicates.points()),
+        locator_(planarized, points_),
+        corners_(as_given) {}
 
-  // A face lies in one facet, since all edges between them are chains of edges: that of its middle,
-  // in doubles. False if a vertex of it is not of that facet.
+  // A face lies in one triangle, since all edges between them are chains of edges. False if a
+  // vertex of it is not of that facet.
   bool run(std::vector<SurfaceFace>& faces) {
     return std::ranges::all_of(faces, [&](SurfaceFace& face) {
       face.facet = as_given_.facet_of[triangle_of(face)];
@@ -458,10 +463,28 @@ class Handover {
     for (const VertexId v : face.vertices) {
       middle = add_scaled(middle, 1.0 / 3, points_.nearest(v));
     }
-    return locator_.triangle_at(face.facet, middle);
+    const std::uint32_t guess = locator_.triangle_at(face.facet, middle);
+    if (lies_in(face, guess)) return guess;
+    const auto& all = planarized_.facet_triangles[face.facet];
+    const auto found = std::ranges::find_if(all, [&](std::uint32_t t) { return lies_in(face, t); });
+    return found != all.end() ? *found : guess;
+  }
+  // In doubles the middle of a face of a sliver may be in another triangle.
+  bool lies_in(const SurfaceFace& face, std::uint32_t triangle) {
+    const int axis = planarized_.facet_axis[face.facet];
+    const auto& corner = planarized_.triangles[triangle];
+    const int turn = predicates_.orient2d(axis, corner[0], corner[1], corner[2]);
+    return std::ranges::all_of(face.vertices, [&](VertexId v) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (predicates_.orient2d(axis, corner[k], corner[(k + 1) % 3], v) * turn < 0) return false;
+      }
+      return true;
+    });
   }
 
+  const SurfaceTopology& planarized_;
   const SurfaceTopology& as_given_;
+  Predicates& predicates_;
   const PointStore& points_;
   FacetLocator locator_;
   FacetCorners corners_;
@@ -493,7 +516,7 @@ DiagonalsResult enter_diagonals(ConformingMesh mesh, const SurfaceTopology& plan
   if (result.missing > 0) return result;
   const bool anchored = entry.anchor_all();
   result.mesh = state.conforming();
-  Handover handover(planarized, as_given, points);
+  Handover handover(planarized, as_given, predicates);
   if (!(anchored && handover.run(result.mesh.boundary))) result.missing = result.diagonals;
   return result;
 }
