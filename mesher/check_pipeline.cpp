@@ -56,7 +56,7 @@ ComplexReport find_regions(const Surface& surface, const Options& options, Contr
   input.partition = cdt::Partition::regions;
   cdt::CdtResult cdt =
       cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, control);
-  ComplexReport report = list_regions(merged, topology, s.predicates, cdt.mesh).report;
+  ComplexReport report = list_regions(merged, s.points, cdt.mesh).report;
   const Status entered =
       enter_region_points(options.region_points, cdt.mesh, s.points, report.regions, warnings);
   if (!entered.ok()) warnings.push_back(entered.message);

@@ -448,7 +448,7 @@ struct Keeping {
   }
   // What is not to be written becomes outside.
   Status choose(const MergedSurface& merged, std::vector<MeshRegion>& regions) {
-    RegionList list = list_regions(merged, s.surface.topology(), s.predicates, mesh);
+    RegionList list = list_regions(merged, s.points, mesh);
     regions = std::move(list.report.regions);
     bare += list.bare;
     if (Status status = enter_region_points(s.options.region_points, mesh, s.points, regions,

@@ -732,6 +732,30 @@ TEST(AllRegions, AreUndecidedWhereVerticesAreNearTwoSides) {
   }
 }
 
+// About a random axis (quaternions).
+class Turn {
+ public:
+  explicit Turn(std::mt19937_64& random) {
+    for (double& x : q_) x = std::uniform_real_distribution<double>(-1, 1)(random);
+  }
+  std::array<double, 3> operator()(const std::array<double, 3>& p) const {
+    const auto& [w, x, y, z] = q_;
+    const double norm = w * w + x * x + y * y + z * z;
+    std::array<double, 3> turned = {(w * w + x * x - y * y - z * z) * p[0] +
+                                        2 * (x * y - w * z) * p[1] + 2 * (x * z + w * y) * p[2],
+                                    2 * (x * y + w * z) * p[0] +
+                                        (w * w - x * x + y * y - z * z) * p[1] +
+                                        2 * (y * z - w * x) * p[2],
+                                    2 * (x * z - w * y) * p[0] + 2 * (y * z + w * x) * p[1] +
+                                        (w * w - x * x - y * y + z * z) * p[2]};
+    for (double& c : turned) c /= norm;
+    return turned;
+  }
+
+ private:
+  std::array<double, 4> q_;
+};
+
 // Four flat tetrahedra as thick as roundings, far from the origin or not: volumes in doubles have
 // no digit right, and vertices of one side of a tetrahedron are on the others, too.
 TEST(AllRegions, OfSlivers) {
@@ -749,20 +773,9 @@ TEST(AllRegions, OfSlivers) {
            {between(0.3, 1), 0, 0},
            {0, between(0.3, 1), 0},
            {between(0.1, 0.4), between(0.1, 0.4), between(1e-16, 4e-16)}}};
-      // About an axis (quaternions).
-      std::array<double, 4> q;
-      for (double& x : q) x = between(-1, 1);
-      const double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+      const Turn turn(random);
       const auto moved = [&](const std::array<double, 3>& p) {
-        const auto& [w, x, y, z] = q;
-        std::array<double, 3> r = {(w * w + x * x - y * y - z * z) * p[0] +
-                                       2 * (x * y - w * z) * p[1] + 2 * (x * z + w * y) * p[2],
-                                   2 * (x * y + w * z) * p[0] +
-                                       (w * w - x * x + y * y - z * z) * p[1] +
-                                       2 * (y * z - w * x) * p[2],
-                                   2 * (x * z - w * y) * p[0] + 2 * (y * z + w * x) * p[1] +
-                                       (w * w - x * x - y * y + z * z) * p[2]};
-        for (double& c : r) c /= norm;
+        std::array<double, 3> r = turn(p);
         r[0] += 3 * n + (i % 2 == 0 ? 1e3 : 0);
         r[1] += i % 2 == 0 ? 7 : 0;
         r[2] += i % 2 == 0 ? 1 : 0;
@@ -789,6 +802,50 @@ TEST(AllRegions, OfSlivers) {
   }
   EXPECT_GT(meshed, samples::iterations(60) / 3);
   EXPECT_GT(split, 0);
+}
+
+// Plates as thin: their narrow sides are nothing but vertices of both ends of each edge.
+TEST(AllRegions, OfThinPlates) {
+  int decided = 0, split = 0;
+  for (int i = 0; i < samples::iterations(40); ++i) {
+    SCOPED_TRACE(i);
+    std::mt19937_64 random(kSeed + static_cast<std::uint64_t>(i));
+    Builder builder;
+    builder.box({0, 0, 0}, {1, 0.7, 0x1p-53 * (1 + i % 8)});
+    Surface surface = builder.surface();
+    const Turn turn(random);
+    for (auto& p : surface.vertices) p = turn(p);
+    const Result result = delmesher::tetrahedralize(surface, all_regions());
+    if (result.status.code == StatusCode::invalid_surface) continue;
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    split += result.statistics.left_on_surface > 0 ? 1 : 0;
+    const VerifyReport report =
+        verified(samples::to_polyhedron(surface), samples::to_mesh(result.mesh));
+    EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+    decided += report.verdict != oracles::Verdict::undecided ? 1 : 0;
+  }
+  EXPECT_GT(decided, 0);
+  EXPECT_GT(split, 0);
+}
+
+// Sides of it are planar and so thin that the middle of one triangle is in the other, in doubles.
+TEST(AllRegions, OfAPlateFarAway) {
+  Surface surface;
+  surface.vertices = {{1000000.0, -299995.0, 20000.0},
+                      {999999.4677569496, -299994.34920279088, 20000.247741097926},
+                      {999999.95611772337, -299994.70487534057, 19999.130453754697},
+                      {999999.42387467297, -299994.05407813145, 19999.378194852619},
+                      {999999.99999999988, -299995.00000000006, 19999.999999999978},
+                      {999999.46775694948, -299994.34920279094, 20000.247741097905},
+                      {999999.95611772325, -299994.70487534063, 19999.130453754675},
+                      {999999.42387467285, -299994.05407813151, 19999.378194852598}};
+  surface.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  const Result result = delmesher::tetrahedralize(surface, all_regions());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const VerifyReport report =
+      verified(samples::to_polyhedron(surface), samples::to_mesh(result.mesh));
+  EXPECT_EQ(report.verdict, oracles::Verdict::exact) << to_text(report);
 }
 
 // Two boxes that overlap, cut where rounding left needles: edges that cross are parallel in

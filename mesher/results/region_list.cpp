@@ -12,6 +12,7 @@
 #include "mesher/base/sort_unique.h"
 #include "mesher/delmesher/region_name.h"
 #include "mesher/geometry/vector.h"
+#include "mesher/predicates/exact_point.h"
 #include "mesher/results/split_walls.h"
 #include "mesher/tetmesh/boundary_sides.h"
 
@@ -22,37 +23,17 @@ using Pair = std::array<RegionId, 2>;  // the smaller one first
 // What is between two regions: the labels that some triangle there has, of each such list one.
 using Walls = std::map<Pair, std::set<std::vector<std::int32_t>>>;
 
-// Per region six times the volume that its triangles bound.
-std::vector<Dyadic> volumes6(const SurfaceTopology& topology, Predicates& predicates,
-                             const ConformingMesh& mesh) {
-  std::vector<std::size_t> first(topology.triangles.size(), mesh.boundary.size());
-  for (std::size_t n = mesh.boundary.size(); n-- > 0;) first[mesh.boundary[n].facet] = n;
-  // In front of each triangle, from where its corners are counter-clockwise, and behind it.
-  std::vector<Pair> sides(topology.triangles.size(), Pair{kOutside, kOutside});
-  for_each_side(mesh, [&](std::size_t n, std::size_t t, int i) {
-    const FacetId facet = mesh.boundary[n].facet;
-    if (first[facet] != n) return;
-    const Tet& v = mesh.tetrahedra[t];
-    const auto& [a, b, c] = kFace[i];
-    const int seen = predicates.orient2d(topology.facet_axis[facet], v[a], v[b], v[c]);
-    sides[facet][seen == topology.facet_axis_sign[facet] ? 1 : 0] = mesh.region[t];
-  });
+// Per region six times its volume, by the faces around it.
+std::vector<Dyadic> volumes6(const PointStore& points, const ConformingMesh& mesh) {
   std::vector<Dyadic> volumes(*std::ranges::max_element(mesh.region) + std::size_t{1});
-  for (std::size_t t = 0; t < sides.size(); ++t) {
-    const auto& [front, behind] = sides[t];
-    if (front == behind) continue;
-    std::array<std::array<Dyadic, 3>, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 p = predicates.points().nearest(topology.triangles[t][k]);
-      for (std::size_t axis = 0; axis < 3; ++axis) x[k][axis] = Dyadic::from_double(p[axis]);
-    }
-    const auto minor = [&](std::size_t i, std::size_t j) {
-      return x[1][i] * x[2][j] - x[1][j] * x[2][i];
-    };
-    const Dyadic cone = x[0][0] * minor(1, 2) + x[0][1] * minor(2, 0) + x[0][2] * minor(0, 1);
-    volumes[front] = volumes[front] - cone;
-    volumes[behind] = volumes[behind] + cone;
-  }
+  for_each_side(mesh, [&](std::size_t, std::size_t t, int i) {
+    const Tet& v = mesh.tetrahedra[t];
+    const auto at = [&](int k) { return dyadic_point(points, v[kFace[i][k]]); };
+    const DyadicPoint a = at(0), b = at(1), c = at(2);
+    const auto minor = [&](std::size_t j, std::size_t k) { return b[j] * c[k] - b[k] * c[j]; };
+    Dyadic& volume = volumes[mesh.region[t]];
+    volume = volume + a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1);
+  });
   return volumes;
 }
 
@@ -187,13 +168,12 @@ std::map<std::int32_t, std::array<std::uint32_t, 2>> open_labels(
 
 class Lister {
  public:
-  Lister(const surface::MergedSurface& merged, const SurfaceTopology& topology,
-         Predicates& predicates, ConformingMesh& mesh)
+  Lister(const surface::MergedSurface& merged, const PointStore& points, ConformingMesh& mesh)
       : merged_(merged),
-        points_(predicates.points()),
+        points_(points),
         mesh_(mesh),
         open_(open_labels(merged)),
-        volumes6_(volumes6(topology, predicates, mesh)) {}
+        volumes6_(volumes6(points, mesh)) {}
 
   RegionList run() {
     sort_by_volume(volumes6_, mesh_, list_.report.regions);
@@ -307,9 +287,9 @@ bool for_each_called(const std::string& name, const Options& options,
 
 }  // namespace
 
-RegionList list_regions(const surface::MergedSurface& merged, const SurfaceTopology& topology,
-                        Predicates& predicates, ConformingMesh& mesh) {
-  return Lister(merged, topology, predicates, mesh).run();
+RegionList list_regions(const surface::MergedSurface& merged, const PointStore& points,
+                        ConformingMesh& mesh) {
+  return Lister(merged, points, mesh).run();
 }
 
 Status choose_regions(const Options& options, const std::vector<MeshRegion>& regions,

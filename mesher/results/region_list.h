@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
-#include "mesher/predicates/predicates.h"
+#include "mesher/predicates/points.h"
 #include "mesher/surface/complex.h"
-#include "mesher/surface/topology.h"
 #include "mesher/tetmesh/conforming_mesh.h"
 
 namespace delmesher::results {
@@ -18,10 +17,10 @@ struct RegionList {
 
 // Numbers the regions of the mesh by their volume, the largest first, from 1 on, and lists them.
 // Those whose exact volumes are the same number of 24 bits (single precision) come in the order of
-// their first triangles: equal bodies differ by roundings. `merged`: the surface of the mesh,
-// `topology` that with a facet for each triangle.
-RegionList list_regions(const surface::MergedSurface& merged, const SurfaceTopology& topology,
-                        Predicates& predicates, ConformingMesh& mesh);
+// their first triangles: equal bodies differ by roundings. `merged`: the surface of the mesh, with
+// a facet for each triangle.
+RegionList list_regions(const surface::MergedSurface& merged, const PointStore& points,
+                        ConformingMesh& mesh);
 
 // Makes regions that are not to be written outside, as holes are. An error if a name is that of no
 // region.

@@ -188,12 +188,15 @@ class Parts {
   }
 
   // Triangles that are no faces and whose reading is ambiguous, if nothing but these is missing,
-  // and faces of one tetrahedron alone lie on them.
+  // and faces of one tetrahedron alone lie on ambiguous ones, read or not.
   std::size_t count_ambiguous() const {
     std::vector<Face> ambiguous;
-    for (const Triangle& t : triangles_) {
-      const bool is_face = t.beside[0] != kNobody || t.beside[1] != kNobody;
-      if (t.is_ambiguous && !is_face) ambiguous.push_back(t.corners);
+    std::size_t unread = 0;
+    for (Index n = 0; n < given_; ++n) {
+      const Triangle& t = triangles_[n];
+      if (!t.is_ambiguous) continue;
+      ambiguous.push_back(t.whole);
+      unread += t.beside[0] == kNobody && t.beside[1] == kNobody ? 1 : 0;
     }
     const auto is_near = [&](const Face& stray) {
       return std::ranges::any_of(ambiguous, [&](const Face& t) {
@@ -209,7 +212,7 @@ class Parts {
         strays_.size() <= kMostSplit &&
         std::ranges::all_of(missing_, [&](Index t) { return triangles_[t].is_ambiguous; }) &&
         std::ranges::all_of(strays_, is_near);
-    return explains ? ambiguous.size() : 0;
+    return explains ? unread : 0;
   }
 
   // Tetrahedra across faces that are not triangles become one part.

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "oracles/base/box_tree.h"
 #include "oracles/base/distances.h"
 #include "oracles/surface/input_surface.h"
 
@@ -15,6 +14,7 @@ SplitTriangles::SplitTriangles(const TetComplex& complex, std::span<const std::i
     : complex_(complex),
       points_(*complex.points),
       regions_(regions),
+      triangles_(triangles),
       near_(near),
       is_corner_(complex.points->size(), false) {
   for (const Face& triangle : triangles) {
@@ -44,16 +44,11 @@ std::vector<SplitTriangles::Split> SplitTriangles::read(const Neighbours& neighb
     result[n].is_ambiguous = !find_vertices(asked[n], around, vertices[n]);
   }
   collect_faces(neighbours, vertices);
-  std::map<Index, std::set<Edge>> edges;  // on which a vertex may be
-  for (std::size_t n = 0; n < asked.size(); ++n) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (const Index v : vertices[n].on_sides[k]) edges[v].insert(side(asked[n], k));
-    }
-  }
+  find_triangles(tree, added, vertices);
   for (std::size_t n = 0; n < asked.size(); ++n) {
     if (result[n].is_ambiguous) continue;
     result[n] = faces_of(asked[n], vertices[n]);
-    if (is_beside_others(asked[n], vertices[n], edges)) result[n].is_ambiguous = true;
+    if (is_beside_others(asked[n], vertices[n])) result[n].is_ambiguous = true;
     for (const Face& face : result[n].faces) {
       for (const Index v : face) {
         const auto at = vertices[n].off.find(v);
@@ -64,19 +59,23 @@ std::vector<SplitTriangles::Split> SplitTriangles::read(const Neighbours& neighb
   return result;
 }
 
+double SplitTriangles::rounded_up(const mpq_class& squared) const {
+  return square_root(squared, points_.exponent()) * (1 + 1e-12);
+}
+double SplitTriangles::distance(Index v, const Face& triangle) const {
+  return rounded_up(squared_distance_to_triangle(points_, v, triangle));
+}
+
 // False if one is near two sides, or their order is none.
 bool SplitTriangles::find_vertices(const Face& triangle, const std::vector<Index>& around,
                                    Vertices& vertices) const {
-  const auto measured = [&](const mpq_class& squared) {
-    return square_root(squared, points_.exponent()) * (1 + 1e-12);
-  };
   for (const Index v : around) {
-    double off = measured(squared_distance_to_triangle(points_, v, triangle));
+    double off = distance(v, triangle);
     if (!(off <= near_)) continue;
     int sides = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double off_side =
-          measured(squared_distance_to_segment(points_, v, triangle[k], triangle[(k + 1) % 3]));
+          rounded_up(squared_distance_to_segment(points_, v, triangle[k], triangle[(k + 1) % 3]));
       if (!(off_side <= near_)) continue;
       ++sides;
       off = std::max(off, off_side);
@@ -105,15 +104,39 @@ bool SplitTriangles::sort_along(Index from, Index to, std::vector<Index>& chain)
   return is_before(last, to);
 }
 
-// Is a vertex on an edge of other triangles, too?
-bool SplitTriangles::is_beside_others(const Face& triangle, const Vertices& vertices,
-                                      const std::map<Index, std::set<Edge>>& edges) {
+// All triangles to which vertices that were found are near.
+void SplitTriangles::find_triangles(const BoxTree& tree, std::span<const Index> added,
+                                    std::span<const Vertices> found) {
+  for (const Vertices& vertices : found) {
+    for (const auto& [v, off] : vertices.off) triangles_at_[v];
+  }
+  std::vector<Index> around;
+  for (const Face& triangle : triangles_) {
+    around.clear();
+    tree.query(enlarged(box_around(points_, triangle), near_), around);
+    for (const Index n : around) {
+      const auto at = triangles_at_.find(added[n]);
+      if (at != triangles_at_.end() && distance(added[n], triangle) <= near_) {
+        at->second.push_back(triangle);
+      }
+    }
+  }
+}
+
+// Is a vertex near a triangle that has not the side on which it is?
+bool SplitTriangles::is_beside_others(const Face& triangle, const Vertices& vertices) const {
+  const auto has = [](const Face& face, Index v) { return std::ranges::count(face, v) > 0; };
   return std::ranges::any_of(vertices.off, [&](const auto& vertex) {
-    const auto at = edges.find(vertex.first);
-    return at != edges.end() && std::ranges::any_of(at->second, [&](const Edge& edge) {
-             return edge != side(triangle, 0) && edge != side(triangle, 1) &&
-                    edge != side(triangle, 2);
-           });
+    return std::ranges::any_of(triangles_at_.at(vertex.first), [&](const Face& other) {
+      if (std::ranges::is_permutation(other, triangle)) return false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_on_side = std::ranges::count(vertices.on_sides[k], vertex.first) > 0;
+        if (is_on_side && has(other, triangle[k]) && has(other, triangle[(k + 1) % 3])) {
+          return false;
+        }
+      }
+      return true;
+    });
   });
 }
 

@@ -16,15 +16,14 @@
 // of the file, or on the outside, if there is one such. Whatever is chosen, the above proves it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "oracles/base/box_tree.h"
 #include "oracles/mesh/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -33,12 +32,13 @@ class SplitTriangles {
  public:
   struct Split {
     std::vector<Face> faces;  // which look to where the triangle does; none if there are none such
-    // There may be others: a vertex is near two sides, or on an edge of other triangles, too, or
-    // several faces were next.
+    // There may be others: a vertex is near two sides, or near triangles that have not the side on
+    // which it is, or several faces were next.
     bool is_ambiguous = false;
   };
 
-  // `triangles`: all of the complex, by vertices of the mesh where these are at their corners.
+  // `triangles`: all of the complex, by vertices of the mesh where these are at their corners; they
+  // must outlive this.
   // `regions`: of tetrahedra; may be empty. `near`: in input units.
   SplitTriangles(const TetComplex& complex, std::span<const std::int64_t> regions,
                  std::span<const Face> triangles, double near);
@@ -61,11 +61,11 @@ class SplitTriangles {
 
   bool find_vertices(const Face& triangle, const std::vector<Index>& around,
                      Vertices& vertices) const;
-  static Edge side(const Face& triangle, std::size_t k) {
-    return std::minmax(triangle[k], triangle[(k + 1) % 3]);
-  }
-  static bool is_beside_others(const Face& triangle, const Vertices& vertices,
-                               const std::map<Index, std::set<Edge>>& edges);
+  double rounded_up(const mpq_class& squared) const;
+  double distance(Index v, const Face& triangle) const;
+  void find_triangles(const BoxTree& tree, std::span<const Index> added,
+                      std::span<const Vertices> found);
+  bool is_beside_others(const Face& triangle, const Vertices& vertices) const;
   bool sort_along(Index from, Index to, std::vector<Index>& chain) const;
   void collect_faces(const Neighbours& neighbours, std::span<const Vertices> found);
   Split faces_of(const Face& triangle, const Vertices& vertices) const;
@@ -73,9 +73,11 @@ class SplitTriangles {
   const TetComplex& complex_;
   const ExactPoints& points_;
   const std::span<const std::int64_t> regions_;
+  const std::span<const Face> triangles_;
   const double near_;
   std::vector<bool> is_corner_;
   std::map<Index, FacesAt> faces_at_;  // of vertices that are near a triangle
+  std::map<Index, std::vector<Face>> triangles_at_;
   double deviation_ = 0;
 };
 
