@@ -1,4 +1,5 @@
 """What the oracles say, as users of the package see it. Run with pytest where tetproof is installed."""
+import functools
 import pickle
 import signal
 import threading
@@ -200,6 +201,36 @@ def test_cells_of_other_kinds(mesh):
     for job in (tetproof.measure, tetproof.improve):
         with pytest.raises(ValueError, match="tetra are taken, .*: wedge"):
             job(Prisms())
+
+
+@pytest.mark.parametrize("cell, nodes", [("tetra10", 10), (np.uint8(24), 10), ("hexahedron20", 20), ("VTK_LAGRANGE_TETRAHEDRON", 10)])
+def test_curved_cells_are_not_left_out(mesh, cell, nodes):
+    class Alone:
+        points = mesh.points
+        cells_dict = {cell: np.zeros((1, nodes), int)}
+
+    class Beside(Alone):
+        cells_dict = {"tetra": mesh.tetrahedra, cell: np.zeros((1, nodes), int), "line3": np.zeros((1, 3), int)}
+
+    for given in (Alone(), Beside()):
+        for job in (tetproof.measure, tetproof.improve, functools.partial(tetproof.verify, CUBE)):
+            with pytest.raises(ValueError, match="tetra are taken, .*: %s$" % cell):
+                job(given)
+
+
+@pytest.mark.parametrize("cell, nodes", [("triangle6", 6), (np.uint8(22), 6), ("quad9", 9)])
+def test_curved_triangles_are_not_left_out(mesh, cell, nodes):
+    class Surface:
+        points = POINTS
+        cells_dict = {cell: np.zeros((1, nodes), int)}
+
+    class Boundary:
+        points = mesh.points
+        cells_dict = {"tetra": mesh.tetrahedra, "triangle": mesh.boundary, cell: np.zeros((1, nodes), int)}
+
+    for job in (lambda: tetproof.check(Surface()), lambda: tetproof.verify(CUBE, Boundary())):
+        with pytest.raises(ValueError, match="triangle are taken, .*: %s$" % cell):
+            job()
 
 
 # The packages themselves: what comes out of them goes straight in.

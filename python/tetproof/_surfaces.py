@@ -2,7 +2,8 @@
 import dataclasses
 import html
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
+import re
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Set, Tuple, Union
 
 import numpy as np
 
@@ -197,19 +198,22 @@ class Repaired(Surface):
     done: List[str] = dataclasses.field(default_factory=list)
 
 
-# What meshio calls cells, and the numbers of VTK, by which pyvista has them; and cells of the same dimension that would be missing.
+# What meshio calls cells, and the numbers of VTK, by which pyvista has them; and cells of the same dimension, of whatever order, that
+# would be missing.
 _TRIANGLES, _TETRAHEDRA = ("triangle", 5), ("tetra", 10)
-_NO_TRIANGLES, _NO_TETRAHEDRA = ("quad", "polygon", 7, 8, 9), ("hexahedron", "wedge", "pyramid", "tetra10", 11, 12, 13, 14, 24)
+_NO_TRIANGLES = ("(triangle|quad|polygon|VTK_(LAGRANGE|BEZIER)_(TRIANGLE|QUAD))", {6, 7, 8, 9, 22, 23, 28, 30, 34, 36, 69, 70, 76, 77})
+_NO_TETRAHEDRA = ("(tetra|hexahedron|wedge|pyramid|polyhedron|VTK_(LAGRANGE|BEZIER)_(TETRA|HEXA|WEDGE|PYRAMID))",
+                  {11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 37, 42, 71, 72, 73, 74, 78, 79, 80, 81})
 
 
-def _kind_of_cells(given: Any, kinds: Tuple[Any, ...], others: Tuple[Any, ...]) -> Any:
+def _kind_of_cells(given: Any, kinds: Tuple[Any, ...], others: Tuple[str, Set[int]]) -> Any:
     """The name or number of those cells that an object of meshio or pyvista has of these kinds, or None."""
     cells = getattr(given, "cells_dict", {})
-    kind = next((kind for kind in kinds if kind in cells), None)
-    wrong = [str(other) for other in others if other in cells]
-    if kind is not None and wrong:
-        raise ValueError("only cells of the kind %s are taken, and there are others: %s" % (kind, ", ".join(wrong)))
-    return kind
+    names, numbers = others
+    wrong = [str(cell) for cell in cells if cell not in kinds and (re.match(names, cell) if isinstance(cell, str) else int(cell) in numbers)]
+    if wrong:
+        raise ValueError("only cells of the kind %s are taken, with straight edges, and there are others: %s" % (kinds[0], ", ".join(wrong)))
+    return next((kind for kind in kinds if kind in cells), None)
 
 
 def _of_triangles(faces: Any) -> Array:

@@ -11,7 +11,7 @@ from . import _oracles
 from ._jobs import check, read, read_mesh
 from ._meshes import Mesh
 from ._runs import InvalidSurface
-from ._surfaces import _NO_TETRAHEDRA, _TETRAHEDRA, _TRIANGLES, Array, _html, _indices, _kind_of_cells, _labels, _points, _surface
+from ._surfaces import _NO_TETRAHEDRA, _NO_TRIANGLES, _TETRAHEDRA, _TRIANGLES, Array, _html, _indices, _kind_of_cells, _labels, _points, _surface
 
 
 @dataclasses.dataclass(eq=False, repr=False)
@@ -117,13 +117,13 @@ def _judged(given: Any) -> Dict[str, Any]:
     elif hasattr(given, "cells_dict"):
         cells, kind = given.cells_dict, _kind_of_cells(given, _TETRAHEDRA, _NO_TETRAHEDRA)
         if kind is None:
-            raise TypeError("the mesh has no tetrahedra of four nodes")
+            raise TypeError("the mesh has no tetrahedra")
         points, tetrahedra = given.points, cells[kind]
         inside = _cell_data(given, "inside", kind)
         mesh.update(regions=_labels(_cell_data(given, "region", kind), "regions"),
                     inside=None if inside is None else np.not_equal(inside, 0).astype(np.uint8))
-        triangle = _TRIANGLES[_TETRAHEDRA.index(kind)]
-        if triangle in cells:
+        triangle = _kind_of_cells(given, _TRIANGLES, _NO_TRIANGLES)
+        if triangle is not None:
             mesh.update(boundary=cells[triangle], labels=_cell_data(given, "label", triangle))
     elif hasattr(given, "elem") and hasattr(given, "node"):  # a tetgen.TetGen
         points, tetrahedra = given.node, given.elem
