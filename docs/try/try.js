@@ -1,4 +1,4 @@
-// The page: a face of the commands `check` and `mesh`, which run in a worker. What it says is what they say.
+// The page: a face of the commands `check`, `mesh` and `tetproof verify`, which run in a worker. What it says is what they say.
 import { View, draw_legend } from "./view.js";
 import { read_vtu } from "./vtu.js";
 
@@ -11,24 +11,32 @@ const kColours = {
   "degenerate triangle": [0.16, 0.63, 0.27], "duplicate triangle": [0.16, 0.63, 0.27],
 };
 
-const module = fetch("delmesher.wasm").then((response) => response.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
-let worker, end_job, input;
+const kVerdicts = {
+  exact: "this mesh fills your surface exactly.",
+  rounded: "this mesh fills your surface, as closely as the numbers in a file can tell.",
+  deviating: "the surface of this mesh is off yours by more than rounding.",
+  undecided: "this file alone does not tell.",
+  broken: "this is no mesh of your surface.",
+};
+
+// Compiled once; that of the oracles when somebody asks.
+const modules = {};
+const module_of = (name) => modules[name] ??= fetch(name).then((response) => response.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
+module_of("delmesher.wasm");
+let worker, end_job, input, meshed;
 const view = new View($("view"));
 draw_legend($("colours"), $("degrees"));
 
-/** Runs a command; null if it was cancelled, or if another one took its place. */
-async function run(args, files) {
+/** Has something done by the worker; null if it was cancelled, or if another one took its place. */
+async function run(name, job) {
   end_job?.();
-  const compiled = await module;
+  const module = await module_of(name);
   return new Promise((done) => {
-    if (worker === undefined) {
-      worker = new Worker("worker.js", { type: "module" });
-      worker.postMessage({ module: compiled });
-    }
+    worker ??= new Worker("worker.js", { type: "module" });
     const leave = (result) => {
       end_job = undefined;
       $("running").hidden = true;
-      $("mesh").disabled = false;
+      $("mesh").disabled = $("verify").disabled = false;
       done(result);
     };
     end_job = () => {
@@ -45,13 +53,13 @@ async function run(args, files) {
     };
     worker.onerror = (error) => {
       worker = undefined;
-      leave({ code: 6, out: "", error: `delmesher: ${error.message ?? "the worker ended"}\n`, files: {} });
+      leave({ code: 6, out: "", error: error.message ?? "the worker ended", files: {} });
     };
-    $("progress").textContent = `${args[0]} ...`;
+    $("progress").textContent = `${job.args?.[0] ?? "verify"} ...`;
     $("bar").removeAttribute("value");
     $("running").hidden = false;
-    $("mesh").disabled = true;
-    worker.postMessage({ args, files });
+    $("mesh").disabled = $("verify").disabled = true;
+    worker.postMessage({ module, ...job });
   });
 }
 
@@ -63,8 +71,8 @@ function say(text, bad = false) {
 
 async function open(name, bytes) {
   input = { name, path: name.startsWith("-") ? `./${name}` : name, bytes };
-  for (const id of ["example", "surface", "options", "downloads", "cutting", "said"]) $(id).hidden = true;
-  const result = await run(["check", input.path, "--json", "--defects", "defects.vtu"], { [name]: bytes });
+  for (const id of ["example", "surface", "options", "downloads", "verdict", "cutting", "said"]) $(id).hidden = true;
+  const result = await run("delmesher.wasm", { args: ["check", input.path, "--json", "--defects", "defects.vtu"], files: { [name]: bytes } });
   if (result === null) return say("cancelled");
   $("name").textContent = name;
   $("surface").hidden = false;
@@ -84,6 +92,8 @@ async function open(name, bytes) {
   const vtu = read_vtu(result.files["defects.vtu"]);
   // The file's first comment numbers the kinds from 1.
   const kinds = new TextDecoder().decode(result.files["defects.vtu"].subarray(0, 1000)).match(/defect: ([^>]*) -->/)[1].split(", ").map((kind) => kind.slice(kind.indexOf(" ") + 1));
+  input.points = vtu.points;
+  input.triangles = vtu.cells[3];
   document.body.classList.add("loaded");
   view.show_surface(vtu, (number) => kColours[kinds[number]], report.defects.flatMap((defect) => defect.points));
   $("options").hidden = false;
@@ -130,13 +140,13 @@ function show_command() {
 }
 
 async function mesh() {
-  $("downloads").hidden = $("said").hidden = true;
-  const result = await run(command(), { [input.name]: input.bytes });
+  $("downloads").hidden = $("verdict").hidden = $("said").hidden = true;
+  const args = command(), result = await run("delmesher.wasm", { args, files: { [input.name]: input.bytes } });
   if (result === null) return say("cancelled");
   say(result.out + result.error, result.code !== 0);
   const files = Object.entries(result.files), vtu = files.find(([name]) => name.endsWith(".vtu"));
   if (vtu === undefined) return;
-  $("downloads").replaceChildren(...files.map(([name, bytes]) => {
+  $("files").replaceChildren(...files.map(([name, bytes]) => {
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = `${name.slice(name.lastIndexOf("."))}, ${size_text(bytes.length)}`;
@@ -151,9 +161,46 @@ async function mesh() {
     return button;
   }));
   $("downloads").hidden = $("cutting").hidden = false;
-  view.take_mesh(read_vtu(vtu[1]));
+  const { points, cells } = read_vtu(vtu[1]), [name, bytes] = files.find(([path]) => path.endsWith(".msh"));
+  meshed = { file: { name, bytes }, promised: ["mesh", ...args.filter((word) => /^--\w+=/.test(word))].join(" "), points, tetrahedra: cells[4] };
+  view.take_mesh({ points, cells });
   $("cut").value = 500;
   cut();
+}
+
+async function verify() {
+  const { file: mesh, promised } = meshed;
+  $("verdict").hidden = true;
+  const result = await run("tetproof.wasm", { verify: { surface: { name: input.name, bytes: input.bytes }, mesh, promised } });
+  if (result === null) return say("cancelled");
+  if (result.error !== undefined) return say(result.error, true);
+  const { verdict, passed, reasons, unproven, report } = result, deviation = report.deviation > 0 ? ` At most ${report.deviation.toPrecision(2)} off.` : "";
+  $("judged").replaceChildren(Object.assign(document.createElement("b"), { textContent: verdict }), `: ${kVerdicts[verdict]}${deviation}`);
+  $("judged").className = passed ? "good" : "bad";
+  $("reasons").replaceChildren(...reasons.map(({ oracle, text, place }) => {
+    const item = document.createElement("li"), button = document.createElement("button");
+    button.type = "button";
+    button.textContent = `${oracle}: ${text}`;
+    button.disabled = place === undefined;
+    button.onclick = () => view.go_to(place_of(place));
+    item.append(button);
+    return item;
+  }));
+  const passes = report.oracles.filter(({ status }) => status === "pass").map(({ name, checked, checked_what }) => `${name} (${checked} ${checked_what})`);
+  $("passes").textContent = `Judged by code that shares nothing with the mesher. Passed: ${passes.join(", ") || "nothing"}.`;
+  const judged = report.scope ? `What was judged: ${report.scope}. ` : "";
+  $("unproven").textContent = judged + (unproven.length > 0 ? `Not shown: ${unproven.join("; ")}.` : "");
+  $("verdict").hidden = false;
+  $("verdict").scrollIntoView({ block: "nearest" });
+}
+
+/** The middle of what a reason names. */
+function place_of({ kind, number, point }) {
+  if (point) return point;
+  const { points } = kind.startsWith("input") ? input : meshed;
+  const corners = kind === "tetrahedron" ? meshed.tetrahedra.slice(4 * number, 4 * number + 4)
+    : kind === "input triangle" ? input.triangles.slice(3 * number, 3 * number + 3) : [number];
+  return [0, 1, 2].map((k) => corners.reduce((sum, v) => sum + points[3 * Number(v) + k], 0) / corners.length);
 }
 
 function size_text(bytes) {
@@ -188,6 +235,7 @@ document.addEventListener("drop", async (event) => {
   if (file) await open(file.name, new Uint8Array(await file.arrayBuffer()));
 });
 $("mesh").onclick = mesh;
+$("verify").onclick = verify;
 $("cancel").onclick = () => end_job?.();
 for (const id of ["keep", "size", "tolerance"]) $(id).oninput = show_command;
 $("axis").oninput = $("cut").oninput = cut;

@@ -1,16 +1,16 @@
-// Runs commands of delmesher, one after the other. It is ended to cancel one.
-import { Delmesher } from "./delmesher.js";
+// Runs commands of delmesher, and verifies, one after the other. It is ended to cancel one.
+import { Delmesher, Verifier } from "./delmesher.js";
 
-let delmesher;
-onmessage = ({ data }) => {
-  if (data.module) {
-    delmesher = new Delmesher(data.module);
-    return;
-  }
+onmessage = ({ data: { module, args, files, verify } }) => {
+  const onProgress = (line) => postMessage({ progress: line });
   try {
-    const result = delmesher.run(data.args, { files: data.files, onProgress: (line) => postMessage({ progress: line }) });
-    postMessage({ result }, Object.values(result.files).map((bytes) => bytes.buffer));
+    if (verify) {
+      postMessage({ result: new Verifier(module).verify(verify.surface, verify.mesh, { promised: verify.promised, onProgress }) });
+    } else {
+      const result = new Delmesher(module).run(args, { files, onProgress });
+      postMessage({ result }, Object.values(result.files).map((bytes) => bytes.buffer));
+    }
   } catch (error) {
-    postMessage({ result: { code: 6, out: "", error: `delmesher: ${error.message}\n`, files: {} } });
+    postMessage({ result: { code: 6, out: "", error: error.message, files: {} } });
   }
 };

@@ -34,7 +34,7 @@ Dyadic dyadic(double value) {
 }
 
 void set_scaled(const Dyadic& value, long exponent, mpz_class& x) {
-  x = static_cast<long>(value.mantissa);
+  x = static_cast<double>(value.mantissa);  // a long may have 32 bits
   if (value.mantissa == 0) return;
   mpz_mul_2exp(x.get_mpz_t(), x.get_mpz_t(), static_cast<unsigned long>(value.exponent - exponent));
 }

@@ -19,5 +19,44 @@ export declare class Delmesher {
   run(args: string[], options?: RunOptions): Result;
 }
 
+/** A file: its name says the format. */
+export interface NamedFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
+export interface VerifyOptions {
+  /** What the mesher was asked for: "mesh OPTIONS" or "cdt OPTIONS" ("mesh"). */
+  promised?: string;
+  onProgress?: (line: string) => void;
+}
+
+/** A violation, and the first element of the mesh or of the surface, or the point, that it names. */
+export interface Reason {
+  oracle: string;
+  text: string;
+  place?: { kind: "vertex" | "tetrahedron" | "input vertex" | "input triangle"; number: number } | { kind: "point"; point: number[] };
+}
+
+export interface Verdict {
+  /** As docs/commands.md explains them. */
+  verdict: "exact" | "rounded" | "deviating" | "undecided" | "broken";
+  passed: boolean;
+  /** For each oracle that failed the first five violations. */
+  reasons: Reason[];
+  /** What is taken for granted, and was not shown. */
+  unproven: string[];
+  /** All that `tetproof verify --json` writes. */
+  report: Record<string, unknown>;
+}
+
+export declare class Verifier {
+  constructor(module: WebAssembly.Module);
+  /** Is the mesh one of the surface? Throws an Error where a file cannot be read, or the surface bounds no solid. */
+  verify(surface: NamedFile, mesh: NamedFile, options?: VerifyOptions): Verdict;
+}
+
 /** Compiles the module: beside this file, or given as bytes, a URL, or a compiled module. */
 export declare function load(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Delmesher>;
+/** The same of the module that verifies. */
+export declare function loadVerifier(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Verifier>;

@@ -112,6 +112,7 @@ export class Wasi {
         this.view().setBigUint64(at, BigInt(Math.round(now * 1e6)), true);
         return 0;
       },
+      random_get: () => 0,  // zeros: runs repeat
       proc_exit: (code) => {
         throw new Exit(code);
       },

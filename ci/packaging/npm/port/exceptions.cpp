@@ -1,5 +1,5 @@
 // Exceptions of the Itanium C++ ABI on those of WebAssembly: Debian builds libc++abi for WASI
-// without them.
+// without them, and without threads.
 //
 // What is thrown is a Thrown in front of the object. Clean-up needs no help; where a type is
 // caught, the compiler calls _Unwind_CallPersonality, which looks into the table of the function
@@ -208,6 +208,11 @@ unsigned __cxa_uncaught_exceptions() noexcept {
 }
 [[noreturn]] void __cxa_throw_bad_array_new_length() {
   throw std::bad_array_new_length();
+}
+
+// The end of the only thread is that of the program, and takes all memory with it.
+int __cxa_thread_atexit(void (* /*destroy*/)(void*), void* /*object*/, void* /*of*/) {
+  return 0;
 }
 
 }  // extern "C"

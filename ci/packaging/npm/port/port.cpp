@@ -1,6 +1,5 @@
-// What Debian's libraries for WASI lack: files of std::filesystem, numbers from text, and what a
-// process does with signals and other processes. There are no links, and the working folder is the
-// root.
+// What Debian's libraries for WASI lack: files of std::filesystem, numbers from text, and some
+// functions of POSIX. There are no links, and the working folder is the root.
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,9 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-
-#include "mesher/cli/batch.h"
-#include "mesher/cli/signals.h"
 
 int dup(int file) {
   return file;  // closing a standard stream does nothing
@@ -202,24 +198,3 @@ path __weakly_canonical(const path& file, error_code* error) {
 }
 
 _LIBCPP_END_NAMESPACE_FILESYSTEM
-
-namespace delmesher::cli {
-
-void install_signal_handlers() {}
-void begin_deferring() {}
-void end_deferring() {}
-bool interrupted() {
-  return false;
-}
-Committing::Committing() : before_() {}
-Committing::~Committing() = default;
-void note_files_in_place(bool /*there*/) {}
-void set_temporaries(const std::vector<std::string>& /*paths*/) {}
-
-int run_batch(const std::vector<Command>& /*commands*/, unsigned /*jobs*/,
-              const Library& /*library*/, const Streams& streams) {
-  streams.error("delmesher: several inputs need processes, which this build has not\n");
-  return kUnreadable;
-}
-
-}  // namespace delmesher::cli
