@@ -37,6 +37,8 @@ FILES = {
     "rotated.stl": stl(CUBE, lambda x, y, z: (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z / 3)),
     "air.stl": stl(CUBE) + stl(CUBE, lambda x, y, z: (4 * x - 2, 4 * y - 2, 4 * z - 2)),
     "assembly.stl": stl(CUBE, name="copper") + stl(CUBE, lambda x, y, z: (x + 1, y, z), "air"),
+    "ball.stl": "".join(stl(CUBE, lambda x, y, z, size=size: ((x - 0.5) * size, (y - 0.5) * size, (z - 0.5) * size), name)
+                        for size, name in ((1, "hole"), (2, "core"), (3, "mantle"))),
     "outline.txt": "0 0\n4 0\n1 1\n0 4\n",
     "names.txt": "1 wall\n",
     "sizes.txt": "0 0 0 0.2\n",
@@ -44,7 +46,7 @@ FILES = {
 
 
 def blocks_of(text, language=""):
-    return re.findall(r"^```%s\n(.*?)^```" % re.escape(language), text, re.M | re.S)
+    return [block for kind, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S) if kind == language]
 
 
 def blocks(section, language=""):

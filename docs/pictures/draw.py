@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Draws the pictures of this folder from files that delmesher writes, each for light and for dark pages.
 
-Usage: docs/pictures/draw.py DELMESHER FOLDER     Without a screen: xvfb-run -a. Needs `ci/install_packages pictures`. FOLDER gets surfaces, meshes and pictures.
+Usage: docs/pictures/draw.py DELMESHER FOLDER     Without a screen: xvfb-run -a. Needs `ci/install_packages pictures solver`. FOLDER gets surfaces, meshes and pictures.
 
 gear.*     a surface, and its mesh cut open, tetrahedra coloured by their smallest dihedral angle
 sizes.*, budgets.*, surface.*, tolerance.*, planar.*, improve.*  its meshes by the options of these guides
 names.*    its faces, as `--label-by-angle` labels them
 stages.*   a surface, what chamfering leaves of it, the refined mesh of that, the final mesh
 defects.*  a surface with defects, as `delmesher check --defects FILE.vtu` colours it
+solvers.*  what five solvers find on the same mesh (ci/full/solver_check)
 """
 import os
 import subprocess
@@ -293,6 +294,26 @@ def draw_defects(delmesher, folder):
         save(window, os.path.join(folder, "defects-%s.png" % name))
 
 
+def draw_solvers(delmesher, folder):
+    results, build = os.path.join(folder, "solvers"), os.path.dirname(os.path.dirname(os.path.realpath(delmesher)))
+    check = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "ci", "full", "solver_check")
+    subprocess.run([check, build, results], check=True, stdout=subprocess.DEVNULL)
+    camera, names = ((0, 0, -0.12), (1.5, -6, 2.5), 1.25), ("CalculiX", "GetDP", "FreeFEM", "scikit-fem", "sfepy")
+    for light, page in PAGES.items():
+        window = open_window(1600, 380)
+        for number, name in enumerate(names):
+            reader = vtk.vtkXMLUnstructuredGridReader()
+            reader.SetFileName(os.path.join(results, name + ".vtu"))
+            reader.Update()
+            grid = reader.GetOutput()
+            points, tetrahedra = vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+            heat = vtk_to_numpy(grid.GetPointData().GetArray("heat"))[tetrahedra].mean(axis=1)
+            # Warm is red, as needles are in the other pictures.
+            _, inside, behind = cut((points, tetrahedra, numpy.zeros((0, 3), int), STOPS[-1][0] * (1 - heat)), lambda c: c[:, 1] > 0)
+            panel(window, number / 5, (number + 1) / 5, [actor(points, inside, page[2], behind, line=0.7)], page, camera, name)
+        save(window, os.path.join(folder, "solvers-%s.png" % light))
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
@@ -301,6 +322,7 @@ def main():
     draw_names(*sys.argv[1:])
     draw_stages(*sys.argv[1:])
     draw_defects(*sys.argv[1:])
+    draw_solvers(*sys.argv[1:])
 
 
 if __name__ == "__main__":
