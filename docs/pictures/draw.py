@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Draws the pictures of this folder from files that delmesher writes, each for light and for dark pages.
 
-Usage: docs/pictures/draw.py DELMESHER FOLDER     Without a screen: xvfb-run -a. Needs `ci/install_packages pictures solver`. FOLDER gets surfaces, meshes and pictures.
+Usage: docs/pictures/draw.py DELMESHER FOLDER     Without a screen: xvfb-run -a. Needs `ci/install_packages pictures solver models`. FOLDER gets surfaces, meshes and pictures.
 
 gear.*     a surface, and its mesh cut open, tetrahedra coloured by their smallest dihedral angle
 sizes.*, budgets.*, surface.*, tolerance.*, planar.*, improve.*  its meshes by the options of these guides
 names.*    its faces, as `--label-by-angle` labels them
 stages.*   a surface, what chamfering leaves of it, the refined mesh of that, the final mesh
 defects.*  a surface with defects, as `delmesher check --defects FILE.vtu` colours it
+models.*   ten models of CGAL's archive (ci/campaigns/demo_models), cut open
 solvers.*  what five solvers find on the same mesh (ci/full/solver_check)
 """
 import os
@@ -21,6 +22,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 sys.dont_write_bytecode = True
 import models  # noqa: E402
 
+ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 PAGES = {"light": ((1, 1, 1), (0.12, 0.14, 0.16), (0.80, 0.83, 0.87)), "dark": ((0.051, 0.067, 0.09), (0.90, 0.93, 0.95), (0.55, 0.60, 0.66))}
 STOPS = ((0, 0.75, 0.10, 0.12), (10, 0.96, 0.49, 0.15), (25, 0.99, 0.84, 0.35), (40, 0.55, 0.82, 0.55), (60, 0.10, 0.53, 0.65))  # degrees, colour
 
@@ -294,10 +296,38 @@ def draw_defects(delmesher, folder):
         save(window, os.path.join(folder, "defects-%s.png" % name))
 
 
+MODELS = ("elephant", "rotor_small", "triceratops", "knot2", "anchor", "helmet", "fandisk", "femur", "couplingdown", "homer")
+
+
+def draw_models(delmesher, folder):
+    archive = os.path.join(folder, "demo")
+    subprocess.run([os.path.join(ROOT, "ci", "campaigns", "demo_models"), archive], check=True)
+    meshes = {}
+    for name in MODELS:
+        made = os.path.join(folder, name + ".vtu")
+        run(delmesher, os.path.join(archive, "data", "meshes", name + ".off"), "-o", made)
+        meshes[name] = read_mesh(made)
+    for light, page in PAGES.items():
+        window = open_window(1600, 660)
+        for number, (name, made) in enumerate(meshes.items()):
+            # Flat sides up to the viewer: the axis of least extent looks at him, the longest one goes across.
+            low, high = made[0].min(axis=0), made[0].max(axis=0)
+            axes = numpy.argsort(low - high)[[0, 2, 1]]
+            points = ((made[0] - (low + high) / 2) / (high - low).max())[:, axes]
+            if numpy.linalg.det(numpy.eye(3)[axes]) < 0:
+                points[:, 1] *= -1
+            outside, inside, quality = cut((points, *made[1:]), lambda c: c[:, 1] > 0.1 * c[:, 0])
+            left, low = number % 5 * 0.187, 0.5 - number // 5 * 0.5
+            renderer = panel(window, left, left + 0.187, [actor(points, outside, page[2], line=0.5), actor(points, inside, page[2], quality, line=0.5)],
+                             page, ((0, 0, -0.06), (0.8, -3, 1), 0.66), "%s, %d" % (name, len(made[1])))
+            renderer.SetViewport(left, low, left + 0.187, low + 0.5)
+        add_scale(window, 0.935, page, "degrees")
+        save(window, os.path.join(folder, "models-%s.png" % light))
+
+
 def draw_solvers(delmesher, folder):
     results, build = os.path.join(folder, "solvers"), os.path.dirname(os.path.dirname(os.path.realpath(delmesher)))
-    check = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "ci", "full", "solver_check")
-    subprocess.run([check, build, results], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([os.path.join(ROOT, "ci", "full", "solver_check"), build, results], check=True, stdout=subprocess.DEVNULL)
     camera, names = ((0, 0, -0.12), (1.5, -6, 2.5), 1.25), ("CalculiX", "GetDP", "FreeFEM", "scikit-fem", "sfepy")
     for light, page in PAGES.items():
         window = open_window(1600, 380)
@@ -322,6 +352,7 @@ def main():
     draw_names(*sys.argv[1:])
     draw_stages(*sys.argv[1:])
     draw_defects(*sys.argv[1:])
+    draw_models(*sys.argv[1:])
     draw_solvers(*sys.argv[1:])
 
 
