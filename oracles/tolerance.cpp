@@ -237,7 +237,7 @@ OracleReport check_lines(const WithinTolerance& s) {
   // What low triangles bend by is not a line: it may be none if their vertices move.
   std::vector<Edge> given = edges_of(s.input), lasting = given, made = edges_of(s.own);
   measure(s.input, 0, given);
-  measure(s.input, s.allowed / 8, lasting);
+  measure(s.input, s.allowed / 2, lasting);
   measure(s.own, s.slab, made);
   const auto is_line = [&](const Edge& e) { return e.border || e.least > s.feature; };
   const auto may_be_line = [&](const Edge& e) { return e.border || e.most >= s.feature; };

@@ -7,7 +7,7 @@
 // corner of the input, where lines end, meet or bend by more than that angle, of a vertex. Angles
 // and distances are in doubles; an edge counts only where roundings do not decide
 // what it is, and one of the input is asked for only if it is a line however its vertices move by
-// an eighth of the tolerance.
+// half of the tolerance.
 #pragma once
 
 #include <vector>

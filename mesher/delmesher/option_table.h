@@ -98,7 +98,7 @@ inline constexpr std::tuple kTable{
         &RemeshOptions::tolerance),
     Row({.name = "feature",
          .help = "with a tolerance: edges that bend by more stay lines, but for those of steps "
-                 "much lower than it",
+                 "lower than it",
          .bounds = kDegreesToRight,
          .unit = Unit::degrees,
          .promised = true,

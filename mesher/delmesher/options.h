@@ -69,7 +69,7 @@ struct Options : Limits {
   // with the same topology. A length; if negative, minus a fraction of the bounding box's diagonal.
   // 0: the surface as given.
   double tolerance = 0;
-  // With a tolerance: edges that bend by more, however vertices move by an eighth of it, stay lines
+  // With a tolerance: edges that bend by more, however vertices move by half of it, stay lines
   // within it, as borders of labels and edges of other than two triangles do; where lines end,
   // meet, or bend by as much, vertices stay.
   double feature = 40;

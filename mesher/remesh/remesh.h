@@ -15,7 +15,7 @@ struct RemeshGoals {
   // No point of either surface is farther from the other, nor a point of a line from the lines of
   // the other. A length, or minus a fraction of the diagonal of the bounding box, as in Options.
   double tolerance = 0;
-  // Edges that bend by more degrees, however their vertices move by an eighth of the tolerance, are
+  // Edges that bend by more degrees, however their vertices move by half of the tolerance, are
   // lines, as are borders of labels and edges of other than two triangles. Where lines end, meet,
   // or bend by as much, vertices stay.
   double feature = 40;

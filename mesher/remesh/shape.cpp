@@ -96,8 +96,8 @@ SurfaceLines lines_of(const Surface& surface, double feature, double tolerance) 
     return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
   const auto normal = [&](const Side& side) { return normal_of(corners(side)); };
-  // The tangent of what a triangle turns by if its vertices move by an eighth of the tolerance.
-  const auto sway = [&](const Side& side) { return tolerance / 4 / least_height(corners(side)); };
+  // The tangent of what a triangle turns by if its vertices move by half of the tolerance.
+  const auto sway = [&](const Side& side) { return tolerance / least_height(corners(side)); };
   const auto differ = [&](const Side& s, const Side& t) {
     return !surface.labels.empty() && surface.labels[s.triangle] != surface.labels[t.triangle];
   };

@@ -73,7 +73,7 @@ inline double cosine_of_bend(const Vec3& m, bool m_is_turned, const Vec3& n, boo
 
 struct SurfaceLines {
   std::vector<Line> lines;
-  // By line: it bends by more than the angle however its vertices move by an eighth of the
+  // By line: it bends by more than the angle however its vertices move by half of the
   // tolerance. What low triangles bend by, whose direction says nothing, does not count.
   std::vector<std::uint8_t> counts;
 };
