@@ -199,6 +199,35 @@ TEST(Remesh, LowStepsGoAndHighOnesStay) {
   }
 }
 
+// A wedge whose sharp edge has a flat triangle on it, as unions leave them: the edge goes over that
+// triangle's vertex, though both bend by more than lines may elsewhere.
+TEST(Remesh, FlatTrianglesOnSharpEdgesGo) {
+  const double half = std::tan(M_PI / 12);
+  const Surface given{.vertices = {{0, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0.4, -2e-4},
+                                   {1, 0, half},
+                                   {1, 1, half},
+                                   {1, 0, -half},
+                                   {1, 1, -half}},
+                      .triangles = {{0, 3, 1},
+                                    {3, 4, 1},
+                                    {0, 1, 2},
+                                    {0, 2, 5},
+                                    {2, 1, 6},
+                                    {2, 6, 5},
+                                    {0, 5, 3},
+                                    {1, 4, 6},
+                                    {3, 5, 4},
+                                    {5, 6, 4}},
+                      .labels = {}};
+  const RemeshGoals goals{.tolerance = 0.01};
+  const Remeshed result = remeshed(given, goals);
+  expect_laws(given, goals, result);
+  EXPECT_LT(least_angle(given), 0.1);
+  EXPECT_GT(least_angle(result.surface), 14.47);
+}
+
 // Labels are within the tolerance of where they were, too.
 TEST(Remesh, LabelsStay) {
   Surface given = ball(10, 1);

@@ -8,7 +8,10 @@ namespace {
 
 constexpr double kAccepted = 0.34;  // sine of the smallest angle that a collapse may make
 constexpr double kRounder = 1.01;   // times the sine: less is not worth a change
-constexpr double kSharp = -0.5;     // cosine of the bend of lines that may be made
+constexpr double kThin = 0.25;      // sine of the smallest angle of a triangle that bends wildly
+// Cosines: of the bend of lines that may be made, also where thin triangles go, whose bends say
+// little; and what roundings may take.
+constexpr double kSharp = -0.5, kSharpest = -0.94, kRounding = 1e-9;
 
 PointStore points_of(const Surface& surface) {
   PointStore points;
@@ -172,6 +175,7 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
     const double cosine = cosine_of_bend(normal(s), s.turned, n, turned);
     if (!(cosine >= least)) least = cosine;
     if (is_of_line && labels[s.triangle] == label) found.lines.push_back({cosine, {s.a, s.b}});
+    if (!is_of_line && !(cosine >= steepest_)) found.sharp.push_back({s.a, s.b});
   };
   const std::vector<Side> sides = sides_of(triangles);
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -192,13 +196,13 @@ State::Bends State::bends(const std::vector<Triangle>& triangles,
   return found;
 }
 
-// The lines that become flat, which then are lines no longer; nothing if anything bends more than
-// it may, or than something did before.
-std::optional<std::vector<Line>> State::flattened(const Patch& patch) const {
+// Nothing if anything bends more than it may, or than something did before. Where thin triangles
+// go, edges may become sharp that are as near to the input's lines as new lines have to be.
+std::optional<State::LineChanges> State::line_changes(const Patch& patch) const {
   const Bends after = bends(patch.added, patch.labels, patch, true);
   if (after.of_others >= steepest_ && after.of_lines >= kSharp &&
       after.flattest_line() <= flattest_) {
-    return std::vector<Line>();
+    return LineChanges();
   }
   std::vector<Triangle> removed;
   std::vector<std::int32_t> labels;
@@ -207,16 +211,20 @@ std::optional<std::vector<Line>> State::flattened(const Patch& patch) const {
     labels.push_back(mesh_.label(t));
   }
   const Bends before = bends(removed, labels, patch, false);
-  if (!(after.of_others >= std::min(steepest_, before.of_others) &&
-        after.of_lines >= std::min(kSharp, before.of_lines))) {
-    return std::nullopt;
+  const double sine = sine_of_removed(patch);
+  const bool thin = sine < kThin && sine_of_added(patch) > kRounder * sine;
+  const double sharpest = thin ? kSharpest : kSharp;
+  LineChanges changes;
+  if (!(after.of_lines >= std::min(sharpest, before.of_lines - kRounding))) return std::nullopt;
+  if (!(after.of_others >= std::min(steepest_, before.of_others))) {
+    if (!thin || !(after.of_others >= sharpest)) return std::nullopt;
+    changes.made = after.sharp;
   }
-  const double flattest = std::max(flattest_, before.flattest_line());
-  std::vector<Line> flat;
+  const double flattest = std::max(flattest_, before.flattest_line() + kRounding);
   for (const auto& [cosine, line] : after.lines) {
-    if (cosine > flattest) flat.push_back(line);
+    if (cosine > flattest) changes.gone.push_back(line);
   }
-  return flat;
+  return changes;
 }
 
 bool State::makes_long_edges(const Patch& patch) const {
@@ -230,16 +238,17 @@ bool State::makes_rounder(const Patch& patch) const {
 }
 
 bool State::apply(Patch patch) {
-  const std::optional<std::vector<Line>> flat = flattened(patch);
-  if (!flat) return false;
-  for (const auto& [a, b] : *flat) {
+  const std::optional<LineChanges> changes = line_changes(patch);
+  if (!changes) return false;
+  for (const auto& [a, b] : changes->gone) {
     if (const std::uint32_t l = mesh_.line_at(a, b); l != kNone) patch.removed_lines.push_back(l);
     std::erase_if(patch.added_lines, [&, a = a, b = b](const Line& line) {
       return line == Line{a, b} || line == Line{b, a};
     });
   }
+  patch.added_lines.insert(patch.added_lines.end(), changes->made.begin(), changes->made.end());
   const std::vector<Simplex> lines = added_lines(patch), triangles = added_triangles(patch);
-  const bool has_lines = !patch.removed_lines.empty();
+  const bool has_lines = !patch.removed_lines.empty() || !patch.added_lines.empty();
   if (has_lines && !line_envelope_.allows(patch.removed_lines, lines)) return false;
   if (!envelope_.allows(patch.removed, triangles) || !embedding_.allows(patch)) return false;
   if (has_lines) line_envelope_.commit(patch.removed_lines, lines);

@@ -60,6 +60,7 @@ class State {
   struct Bends {
     double of_lines = 1, of_others = 1;
     std::vector<std::pair<double, Line>> lines;
+    std::vector<Line> sharp;  // others that bend by more than the feature angle
 
     double flattest_line() const {
       double flattest = -1;
@@ -68,6 +69,11 @@ class State {
       }
       return flattest;
     }
+  };
+
+  // Lines that are flat and so none any longer, and sharp edges that become some.
+  struct LineChanges {
+    std::vector<Line> gone, made;
   };
 
   State(const Surface& surface, const SurfaceLines& lines, const RemeshGoals& goals,
@@ -83,7 +89,7 @@ class State {
   bool is_line_with(const Patch& patch, VertexId a, VertexId b) const;
   Bends bends(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& labels,
               const Patch& patch, bool added) const;
-  std::optional<std::vector<Line>> flattened(const Patch& patch) const;
+  std::optional<LineChanges> line_changes(const Patch& patch) const;
   bool makes_long_edges(const Patch& patch) const;
   bool makes_rounder(const Patch& patch) const;
   Quadric of_both(VertexId a, VertexId b) const;
