@@ -729,6 +729,21 @@ TEST(AllRegions, AreUndecidedWhereVerticesAreNearTwoSides) {
     const auto number = static_cast<std::size_t>(apart - told.mesh.tetrahedra.begin());
     drop_tetrahedra(told, [&](std::size_t t) { return t == number; });
     EXPECT_EQ(verified(told.input, told.mesh).verdict, oracles::Verdict::broken);
+    const Told whole{samples::to_polyhedron(builder.surface()), samples::to_mesh(result.mesh)};
+    Told numbered = whole;
+    numbered.mesh.regions[number] = 3;
+    EXPECT_EQ(verified(numbered.input, numbered.mesh).verdict, oracles::Verdict::broken);
+    Told labelled = whole;
+    for (std::size_t n = 0; n < labelled.mesh.boundary.size(); ++n) {
+      const oracles::Face& face = labelled.mesh.boundary[n];
+      if (std::ranges::all_of(face, [&](auto v) { return whole.mesh.vertices[v][0] == 0; })) {
+        labelled.mesh.labels[n] = 2;
+      }
+    }
+    EXPECT_EQ(verified(labelled.input, labelled.mesh).verdict, oracles::Verdict::broken);
+    Told hollow = whole;
+    hollow.input.region_points.push_back({.point = {1, 1, 1}, .is_hole = true});
+    EXPECT_EQ(verified(hollow.input, hollow.mesh).verdict, oracles::Verdict::broken);
   }
 }
 
@@ -789,8 +804,8 @@ TEST(AllRegions, OfSlivers) {
       }
     }
     const Result result = delmesher::tetrahedralize(builder.surface(), all_regions());
-    if (result.status.code == StatusCode::invalid_surface)
-      continue;  // it is flat, or turned inside out
+    // It is flat, or turned inside out.
+    if (result.status.code == StatusCode::invalid_surface) continue;
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     ++meshed;
     split += result.statistics.left_on_surface > 0 ? 1 : 0;
@@ -824,7 +839,7 @@ TEST(AllRegions, OfThinPlates) {
     EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
     decided += report.verdict != oracles::Verdict::undecided ? 1 : 0;
   }
-  EXPECT_GT(decided, 0);
+  EXPECT_GT(decided, samples::iterations(40) / 2);
   EXPECT_GT(split, 0);
 }
 

@@ -57,6 +57,7 @@ class Parts {
     connect();
     near_ = near;
     if (near > 0 && read_split()) connect();
+    find_unread();
     find_solids();
     check_strays();
     find_parts_of_points();
@@ -73,14 +74,7 @@ class Parts {
     if (splits_walls()) {
       for (const auto& [part, t] : parts()) result_.called[part] = called(t);
     }
-    if (const std::size_t unread = count_ambiguous(); unread > 0) {
-      result_.split += unread;
-      for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
-        report->undecided = report->violations > 0;
-      }
-      result_.parts.notes.emplace_back(
-          "several faces may tile triangles that are split: which ones do is not decided");
-    }
+    excuse();
     return std::move(result_);
   }
 
@@ -179,40 +173,66 @@ class Parts {
       const Index at = k == 0 ? n : static_cast<Index>(triangles_.size());
       by_corners_.emplace(part.sorted, at);
       result_.pieces.emplace(part.sorted, PartsResult::Piece{part.corners, part.given});
-      if (k == 0)
+      if (k == 0) {
         triangles_[n] = part;
-      else
+      } else {
         triangles_.push_back(part);
+      }
     }
     return true;
   }
 
-  // Triangles that are no faces and whose reading is ambiguous, if nothing but these is missing,
-  // and faces of one tetrahedron alone lie on ambiguous ones, read or not.
-  std::size_t count_ambiguous() const {
-    std::vector<Face> ambiguous;
-    std::size_t unread = 0;
+  // --- what triangles explain whose reading is ambiguous
+  // Is it one, and no face?
+  bool is_unread(Index n) const {
+    const Triangle& t = triangles_[n];
+    return t.is_ambiguous && !torn_ && t.beside[0] == kNobody && t.beside[1] == kNobody;
+  }
+  // Is it one, or does it have an edge in common with one?
+  bool is_beside_unread(Index n) const {
+    const Face& t = triangles_[n].whole;
+    return std::ranges::any_of(unread_, [&](const Face& other) {
+      return std::ranges::count_if(
+                 other, [&](Index v) { return std::ranges::find(t, v) != t.end(); }) >= 2;
+    });
+  }
+  void find_unread() {
     for (Index n = 0; n < given_; ++n) {
-      const Triangle& t = triangles_[n];
-      if (!t.is_ambiguous) continue;
-      ambiguous.push_back(t.whole);
-      unread += t.beside[0] == kNobody && t.beside[1] == kNobody ? 1 : 0;
+      if (!triangles_[n].is_ambiguous || torn_) continue;
+      ambiguous_.push_back(triangles_[n].whole);
+      if (is_unread(n)) unread_.push_back(triangles_[n].whole);
     }
-    const auto is_near = [&](const Face& stray) {
-      return std::ranges::any_of(ambiguous, [&](const Face& t) {
-        return std::ranges::all_of(stray, [&](Index v) {
-          return square_root(squared_distance_to_triangle(points_, v, t), points_.exponent()) *
-                     (1 + 1e-12) <=
-                 near_;
-        });
+    if (ambiguous_.size() <= kMostSplit) return;
+    ambiguous_.clear();
+    unread_.clear();
+  }
+  // Does the face lie on one of these?
+  bool lies_on(const std::vector<Face>& triangles, const Face& face) const {
+    return std::ranges::any_of(triangles, [&](const Face& t) {
+      return std::ranges::all_of(face, [&](Index v) {
+        return square_root(squared_distance_to_triangle(points_, v, t), points_.exponent()) *
+                   (1 + 1e-12) <=
+               near_;
       });
-    };
-    const bool explains =
-        !torn_ && !(missing_.empty() && strays_.empty()) && ambiguous.size() <= kMostSplit &&
-        strays_.size() <= kMostSplit &&
-        std::ranges::all_of(missing_, [&](Index t) { return triangles_[t].is_ambiguous; }) &&
-        std::ranges::all_of(strays_, is_near);
-    return explains ? unread : 0;
+    });
+  }
+  // Of what is no triangle: where some are not read, others may be read as they are not.
+  bool is_explained(const Face& face) const {
+    return !unread_.empty() && lies_on(ambiguous_, face);
+  }
+  void fail(OracleReport& report, const std::string& finding, bool explained) {
+    report.fail(finding);
+    if (explained) ++explained_[&report];
+  }
+  // Where they explain every violation of a report, nothing is known to be wrong.
+  void excuse() {
+    if (explained_.empty()) return;
+    for (OracleReport* report : {&result_.parts, &result_.regions, &result_.list}) {
+      report->undecided = report->violations > 0 && explained_[report] == report->violations;
+    }
+    result_.split += unread_.size();
+    result_.parts.notes.emplace_back(
+        "several faces may tile triangles that are split: which ones do is not decided");
   }
 
   // Tetrahedra across faces that are not triangles become one part.
@@ -243,8 +263,9 @@ class Parts {
 
   void check_strays() {
     for (const Face& face : strays_) {
-      result_.parts.fail(complex_.face_name(face) +
-                         " is of one tetrahedron alone, and no triangle of the input");
+      fail(result_.parts,
+           complex_.face_name(face) + " is of one tetrahedron alone, and no triangle of the input",
+           strays_.size() <= kMostSplit && is_explained(face));
     }
   }
 
@@ -272,8 +293,8 @@ class Parts {
       ++bare;
       const RayCrossings above = outer_->above(t.corners);
       if (above.on_triangle || above.winding != 0) {
-        result_.parts.fail(name(t) + " is not a face of the mesh");
-        missing_.push_back(n);
+        fail(result_.parts, name(t) + " is not a face of the mesh",
+             is_unread(n) && !unread_.empty());
       }
     }
     result_.parts.figures.emplace_back("triangles that bound nothing", static_cast<double>(bare));
@@ -286,14 +307,19 @@ class Parts {
     }
     shells_.emplace(points_, corners_, std::move(empty));
     for (const auto& [here, next] : shells_->broken_wedges()) {
-      result_.parts.fail("between " + name(triangles_[here]) + " and " + name(triangles_[next]) +
-                         " there is a part of a wedge");
+      fail(result_.parts,
+           "between " + name(triangles_[here]) + " and " + name(triangles_[next]) +
+               " there is a part of a wedge",
+           is_beside_unread(here) || is_beside_unread(next));
     }
     find_points_of_shells();
     for (const auto& [number, shell] : shells_->all()) {
       if (shell.volume.sign() <= 0 || !is_wanted(shell)) continue;
-      result_.parts.fail("a part that is bounded by " + name(triangles_[shell.sides.front() / 2]) +
-                         " has no tetrahedra");
+      fail(result_.parts,
+           "a part that is bounded by " + name(triangles_[shell.sides.front() / 2]) +
+               " has no tetrahedra",
+           std::ranges::any_of(
+               shell.sides, [&](Index side) { return is_unread(side / 2) && !unread_.empty(); }));
     }
   }
 
@@ -453,6 +479,36 @@ class Parts {
     }
   }
 
+  // Do faces between them, one region after the other, lie on triangles that are not read?
+  bool are_joined(std::int64_t region, std::int64_t other) {
+    if (unread_.empty()) return false;
+    if (joined_.empty()) find_joined();
+    const auto number = [&](std::int64_t n) { return joined_.try_emplace(n, n).first->second; };
+    return number(region) == number(other);
+  }
+  void find_joined() {
+    std::size_t asked = 0;
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      joined_.try_emplace(mesh_.regions[t], mesh_.regions[t]);
+    }
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      for (int i = 0; i < 4; ++i) {
+        const Index across = neighbours_.across[4 * t + static_cast<Index>(i)];
+        if (across == kNone || across / 4 > t) continue;
+        const std::int64_t here = joined_[mesh_.regions[t]],
+                           there = joined_[mesh_.regions[across / 4]];
+        const Face face = face_of(complex_.tetrahedra[t], i);
+        if (here == there || triangle_of(face) != kNobody || ++asked > kMostSplit ||
+            !lies_on(unread_, face)) {
+          continue;
+        }
+        for (auto& [region, first] : joined_) {
+          if (first == there) first = here;
+        }
+      }
+    }
+  }
+
   void check_regions() {
     std::map<Index, std::int64_t> region_of;
     std::map<std::int64_t, Index> part_of;
@@ -465,8 +521,10 @@ class Parts {
       const std::int64_t region = mesh_.regions[t];
       const std::int64_t other = region_of.try_emplace(part, region).first->second;
       if (other != region) {
-        result_.regions.fail(complex_.tet_name(t) + " is of region " + std::to_string(region) +
-                             ", others of its part are of region " + std::to_string(other));
+        fail(result_.regions,
+             complex_.tet_name(t) + " is of region " + std::to_string(region) +
+                 ", others of its part are of region " + std::to_string(other),
+             are_joined(region, other));
       } else if (part_of.try_emplace(region, part).first->second != part) {
         result_.regions.fail(complex_.tet_name(t) + " is of region " + std::to_string(region) +
                              ", and so is another part");
@@ -503,7 +561,12 @@ class Parts {
     const std::map<Index, ExactSum> volumes = this->volumes();
     std::array<std::uint64_t, 2> least = {~std::uint64_t{0}, 0};
     for (const auto& [region, part] : part_of) {
-      const auto volume = volumes.at(part).rounded();
+      const auto known = volumes.find(part);
+      if (known == volumes.end()) {
+        result_.regions.fail("region " + std::to_string(region) + " is bounded by no triangle");
+        continue;
+      }
+      const auto volume = known->second.rounded();
       if (volume > least) {
         result_.regions.fail("region " + std::to_string(region) +
                              " is larger than one of a smaller number");
@@ -566,9 +629,12 @@ class Parts {
     }
   }
 
+  static bool is_wall(const Triangle& t) {
+    return t.beside[0] != kNobody && t.beside[1] != kNobody;
+  }
   // Is one of those given as that listed one is? Those of split walls are two of the file.
   bool is_as_given(const Triangle& t, std::size_t listed, bool even) const {
-    if (splits_walls() && t.beside[0] != kNobody && t.beside[1] != kNobody) return true;
+    if (splits_walls() && is_wall(t)) return true;
     const bool labelled = listed < mesh_.labels.size() && !input_.labels.empty();
     for (std::size_t n = 0; n < t.labels.size(); ++n) {
       if (t.even[n] == even && (!labelled || t.labels[n] == mesh_.labels[listed])) return true;
@@ -590,13 +656,14 @@ class Parts {
       for (Index& v : face) v += complex_.first_vertex;
       const Index t = triangle_of(face);
       if (t == kNobody) {
-        result_.list.fail(what + " is none of the input");
+        fail(result_.list, what + " is none of the input", is_explained(face));
         continue;
       }
       if (listed[t]++ != 0) result_.list.fail(what + " is listed twice");
       // Which side of a split wall is listed here, and so which label, is seen by its own oracle.
       const bool is_labelled = n < mesh_.labels.size() && !input_.labels.empty() &&
-                               !(splits_walls() && result_.pieces.contains(triangles_[t].sorted));
+                               !(splits_walls() && is_wall(triangles_[t]) &&
+                                 result_.pieces.contains(triangles_[t].sorted));
       if (is_labelled && std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
         result_.list.fail(what + " has label " + std::to_string(mesh_.labels[n]) + ", and " +
                           name(triangles_[t]) + " has not");
@@ -607,7 +674,10 @@ class Parts {
     if (turned > 0) result_.list.figures.emplace_back(kTurned, static_cast<double>(turned));
     for (Index t = 0; t < triangles_.size(); ++t) {
       const bool face = triangles_[t].beside[0] != kNobody || triangles_[t].beside[1] != kNobody;
-      if (face && listed[t] == 0) result_.list.fail(name(triangles_[t]) + " is not listed");
+      if (face && listed[t] == 0) {
+        fail(result_.list, name(triangles_[t]) + " is not listed",
+             !unread_.empty() && triangles_[t].is_ambiguous);
+      }
     }
   }
 
@@ -632,7 +702,11 @@ class Parts {
   std::vector<Face> strays_;  // faces of one tetrahedron alone that are no triangles
   std::vector<Face> outer_faces_;
   std::optional<RayTarget> outer_;
-  std::vector<Index> missing_;  // triangles that should be faces and are not
+  // Triangles whose reading is ambiguous, of these those that are no faces, and how many violations
+  // of each report they explain; by region the least of those that are one where they are not read.
+  std::vector<Face> ambiguous_, unread_;
+  std::map<const OracleReport*, std::uint64_t> explained_;
+  std::map<std::int64_t, std::int64_t> joined_;
   PartsResult result_;
 };
 

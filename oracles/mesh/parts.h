@@ -61,8 +61,8 @@ struct PartsResult {
 // `points` of the complex: the vertices of the input, then those of the file from
 // complex.first_vertex on. Triangles that are repeated in the input count once. Those that are not
 // faces of the mesh are violations, but for those that bound no part. `near` (input units; 0: this
-// is not asked): several faces stand for one with vertices so near to it (split_triangles.h). If
-// for all others that should be faces this is ambiguous, that is not decided.
+// is not asked): several faces stand for one with vertices so near to it (split_triangles.h). Of
+// a report all whose violations lie where this is ambiguous, that is not decided.
 PartsResult check_parts(const Polyhedron& input, const MeshFile& mesh, const TetComplex& complex,
                         const Neighbours& neighbours, const Promise& promise, double near);
 
