@@ -3,11 +3,11 @@
 // Laws: it has the shells of the input, solid ones and cavities, with their genus; of each label
 // the triangles are within the tolerance of the input's, and conversely; every border of labels,
 // and every edge that bends by more than the feature angle, is within it of the input's lines,
-// which are the same kinds of edges; each of these is within it of the edges of the mesh, and each
-// corner of the input, where lines end, meet or bend by more than that angle, of a vertex. Angles
-// and distances are in doubles; an edge counts only where roundings do not decide
-// what it is, and one of the input is asked for only if it is a line however its vertices move by
-// half of the tolerance.
+// which are the same kinds of edges; each of these is within it of edges of the mesh that bend by
+// half as much, and each corner of the input, where lines end, meet or bend by more than that
+// angle, of a vertex. Angles and distances are in doubles; an edge counts only where roundings do
+// not decide what it is, and one of the input is asked for only if it is a line however its
+// vertices move by half of the tolerance.
 #pragma once
 
 #include <vector>
