@@ -467,6 +467,7 @@ class Handover {
     if (lies_in(face, guess)) return guess;
     const auto& all = planarized_.facet_triangles[face.facet];
     const auto found = std::ranges::find_if(all, [&](std::uint32_t t) { return lies_in(face, t); });
+    // A vertex that another facet defines may be beside all of them.
     return found != all.end() ? *found : guess;
   }
   // In doubles the middle of a face of a sliver may be in another triangle.

@@ -69,8 +69,9 @@ void sort_by_volume(std::vector<Dyadic>& volumes, ConformingMesh& mesh,
   for (const RegionId region : order) {
     number[region] = static_cast<RegionId>(sorted.size());
     sorted.push_back(std::move(volumes[region]));
-    if (region != kOutside)
+    if (region != kOutside) {
       regions.emplace_back().volume = round_to_double(sorted.back()).value / 6;
+    }
   }
   volumes = std::move(sorted);
   for (RegionId& region : mesh.region) region = number[region];

@@ -33,7 +33,12 @@ bool is_exact(const ExactRecord& record, int exponent) {
     const Point place = {p.x, p.y, p.z};
     return p.kind != ExactPoint::Kind::explicit_point || is_exact({&place, 1}, exponent);
   };
+  const auto corner_is_exact = [&](const ExactRecord::Corner& corner) {
+    const Point distance = {corner.distance, 0, 0};
+    return is_exact({&distance, 1}, exponent);
+  };
   return std::ranges::all_of(record.points, point_is_exact) &&
+         std::ranges::all_of(record.corners, corner_is_exact) &&
          std::ranges::all_of(record.planes, [&](const ExactRecord::Plane& plane) {
            return is_exact(plane.through, exponent);
          });
@@ -131,7 +136,7 @@ auto scaled_and_back(const Model& model, const JobOptions& given, const Run& run
   auto result = run(scaled, units, exponent);
   if (names_places(result)) return in_given_units(model, given, run);
   // Points that become subnormal are not.
-  if (!is_exact(result, exponent)) {
+  if (result.status.ok() && !is_exact(result, exponent)) {
     result = {};
     result.status = does_not_fit();
     return result;
