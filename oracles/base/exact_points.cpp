@@ -270,10 +270,11 @@ long parameter_exponent(std::span<const ExactPoint> points) {
 
 // Adds parameter * (to - from); the product is an integer by the choice of the common exponent.
 void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const mpz_class& to) {
-  thread_local mpz_class step;
+  thread_local mpz_class step, mantissa;
   const Dyadic t = dyadic(parameter);
+  mantissa = static_cast<double>(t.mantissa);  // a long may have 32 bits
   mpz_sub(step.get_mpz_t(), to.get_mpz_t(), from.get_mpz_t());
-  mpz_mul_si(step.get_mpz_t(), step.get_mpz_t(), static_cast<long>(t.mantissa));
+  mpz_mul(step.get_mpz_t(), step.get_mpz_t(), mantissa.get_mpz_t());
   if (t.exponent >= 0) {
     mpz_mul_2exp(step.get_mpz_t(), step.get_mpz_t(), static_cast<unsigned long>(t.exponent));
   } else {
