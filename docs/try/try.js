@@ -1,5 +1,6 @@
 // The page: a face of the commands `check`, `mesh` and `tetproof verify`, which run in a worker. What it says is what they say.
 import { View, draw_legend } from "./view.js";
+import { compile } from "./delmesher.js";
 import { read_vtu } from "./vtu.js";
 
 const $ = (id) => document.getElementById(id);
@@ -16,13 +17,16 @@ const kVerdicts = {
   rounded: "this mesh fills your surface, as closely as the numbers in a file can tell.",
   deviating: "the surface of this mesh is off yours by more than rounding.",
   undecided: "this file alone does not tell.",
-  broken: "this is no mesh of your surface.",
+  broken: "something that was promised of this mesh does not hold.",
 };
 
 // Compiled once; that of the oracles when somebody asks.
 const modules = {};
-const module_of = (name) => modules[name] ??= fetch(name).then((response) => response.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
-module_of("delmesher.wasm");
+const module_of = (name) => (modules[name] ??= compile(new URL(name, location.href)).catch((error) => {
+  delete modules[name];
+  throw error;
+}));
+module_of("delmesher.wasm").catch(() => {});  // said when somebody needs it
 let worker, end_job, input, meshed;
 const view = new View($("view"));
 draw_legend($("colours"), $("degrees"));
@@ -30,36 +34,44 @@ draw_legend($("colours"), $("degrees"));
 /** Has something done by the worker; null if it was cancelled, or if another one took its place. */
 async function run(name, job) {
   end_job?.();
-  const module = await module_of(name);
   return new Promise((done) => {
-    worker ??= new Worker("worker.js", { type: "module" });
+    let left = false;
     const leave = (result) => {
+      if (left) return;
+      left = true;
       end_job = undefined;
       $("running").hidden = true;
       $("mesh").disabled = $("verify").disabled = false;
       done(result);
     };
+    const fail = (error) => {
+      worker?.terminate();
+      worker = undefined;
+      leave({ code: 6, out: "", error: error.message ?? "the worker ended", files: {} });
+    };
     end_job = () => {
-      worker.terminate();
+      worker?.terminate();
       worker = undefined;
       leave(null);
     };
-    worker.onmessage = ({ data }) => {
-      if (data.result) return leave(data.result);
-      $("progress").textContent = data.progress;
-      const share = data.progress.match(/(\d+) %/);
-      if (share) $("bar").value = Number(share[1]);
-      else $("bar").removeAttribute("value");
-    };
-    worker.onerror = (error) => {
-      worker = undefined;
-      leave({ code: 6, out: "", error: error.message ?? "the worker ended", files: {} });
+    const start = (module) => {
+      if (left) return;
+      worker ??= new Worker("worker.js", { type: "module" });
+      worker.onmessage = ({ data }) => {
+        if (data.result) return leave(data.result);
+        $("progress").textContent = data.progress;
+        const share = data.progress.match(/(\d+) %/);
+        if (share) $("bar").value = Number(share[1]);
+        else $("bar").removeAttribute("value");
+      };
+      worker.onerror = fail;
+      worker.postMessage({ module, ...job });
     };
     $("progress").textContent = `${job.args?.[0] ?? "verify"} ...`;
     $("bar").removeAttribute("value");
     $("running").hidden = false;
     $("mesh").disabled = $("verify").disabled = true;
-    worker.postMessage({ module, ...job });
+    module_of(name).then(start).catch(fail);
   });
 }
 
@@ -170,37 +182,41 @@ async function mesh() {
 
 async function verify() {
   const { file: mesh, promised } = meshed;
-  $("verdict").hidden = true;
+  $("verdict").hidden = $("said").hidden = true;
   const result = await run("tetproof.wasm", { verify: { surface: { name: input.name, bytes: input.bytes }, mesh, promised } });
   if (result === null) return say("cancelled");
   if (result.error !== undefined) return say(result.error, true);
-  const { verdict, passed, reasons, unproven, report } = result, deviation = report.deviation > 0 ? ` At most ${report.deviation.toPrecision(2)} off.` : "";
+  const { verdict, passed, reasons, unproven, report } = result, deviation = ["rounded", "deviating"].includes(verdict) ? ` At most ${report.deviation.toPrecision(2)} off.` : "";
   $("judged").replaceChildren(Object.assign(document.createElement("b"), { textContent: verdict }), `: ${kVerdicts[verdict]}${deviation}`);
   $("judged").className = passed ? "good" : "bad";
   $("reasons").replaceChildren(...reasons.map(({ oracle, text, place }) => {
     const item = document.createElement("li"), button = document.createElement("button");
     button.type = "button";
     button.textContent = `${oracle}: ${text}`;
-    button.disabled = place === undefined;
-    button.onclick = () => view.go_to(place_of(place));
+    const at = place && place_of(place);
+    button.disabled = !at;
+    button.onclick = () => view.go_to(at);
     item.append(button);
     return item;
   }));
   const passes = report.oracles.filter(({ status }) => status === "pass").map(({ name, checked, checked_what }) => `${name} (${checked} ${checked_what})`);
-  $("passes").textContent = `Judged by code that shares nothing with the mesher. Passed: ${passes.join(", ") || "nothing"}.`;
+  $("passes").textContent = `Judged by code of its own. Passed: ${passes.join(", ") || "nothing"}.`;
   const judged = report.scope ? `What was judged: ${report.scope}. ` : "";
   $("unproven").textContent = judged + (unproven.length > 0 ? `Not shown: ${unproven.join("; ")}.` : "");
   $("verdict").hidden = false;
   $("verdict").scrollIntoView({ block: "nearest" });
 }
 
-/** The middle of what a reason names. */
+/** The middle of what a reason names; of a surface that moved, only what the mesh has. */
 function place_of({ kind, number, point }) {
   if (point) return point;
-  const { points } = kind.startsWith("input") ? input : meshed;
+  const of_input = kind.startsWith("input");
+  if (of_input && meshed.promised.includes("--tolerance")) return undefined;
+  const { points } = of_input ? input : meshed;
   const corners = kind === "tetrahedron" ? meshed.tetrahedra.slice(4 * number, 4 * number + 4)
     : kind === "input triangle" ? input.triangles.slice(3 * number, 3 * number + 3) : [number];
-  return [0, 1, 2].map((k) => corners.reduce((sum, v) => sum + points[3 * Number(v) + k], 0) / corners.length);
+  const middle = [0, 1, 2].map((k) => corners.reduce((sum, v) => sum + points[3 * Number(v) + k], 0) / corners.length);
+  return middle.every(Number.isFinite) ? middle : undefined;
 }
 
 function size_text(bytes) {

@@ -201,9 +201,9 @@ class Repaired(Surface):
 # What meshio calls cells, and the numbers of VTK, by which pyvista has them; and cells of the same dimension, of whatever order, that
 # would be missing.
 _TRIANGLES, _TETRAHEDRA = ("triangle", 5), ("tetra", 10)
-_NO_TRIANGLES = ("(triangle|quad|polygon|VTK_(LAGRANGE|BEZIER)_(TRIANGLE|QUAD))", {6, 7, 8, 9, 22, 23, 28, 30, 34, 36, 69, 70, 76, 77})
-_NO_TETRAHEDRA = ("(tetra|hexahedron|wedge|pyramid|polyhedron|VTK_(LAGRANGE|BEZIER)_(TETRA|HEXA|WEDGE|PYRAMID))",
-                  {11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 37, 42, 71, 72, 73, 74, 78, 79, 80, 81})
+_NO_TRIANGLES = ("(triangle|quad|pixel|polygon|VTK_(LAGRANGE|BEZIER)_(TRIANGLE|QUAD))", {6, 7, 8, 9, 22, 23, 28, 30, 34, 36, 61, 62, 63, 69, 70, 76, 77})
+_NO_TETRAHEDRA = ("(tetra|hexahedron|voxel|wedge|pyramid|polyhedron|penta_prism|hexa_prism|VTK_(LAGRANGE|BEZIER)_(TETRA|HEXA|WEDGE|PYRAMID))",
+                  {11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 37, 41, 42, 64, 65, 66, 67, 71, 72, 73, 74, 78, 79, 80, 81})
 
 
 def _kind_of_cells(given: Any, kinds: Tuple[Any, ...], others: Tuple[str, Set[int]]) -> Any:

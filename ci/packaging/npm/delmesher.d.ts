@@ -26,7 +26,7 @@ export interface NamedFile {
 }
 
 export interface VerifyOptions {
-  /** What the mesher was asked for: "mesh OPTIONS" or "cdt OPTIONS" ("mesh"). */
+  /** What was asked for, as `tetproof verify --promised` takes it ("mesh"). */
   promised?: string;
   onProgress?: (line: string) => void;
 }
@@ -35,14 +35,14 @@ export interface VerifyOptions {
 export interface Reason {
   oracle: string;
   text: string;
-  place?: { kind: "vertex" | "tetrahedron" | "input vertex" | "input triangle"; number: number } | { kind: "point"; point: number[] };
+  place?: { kind: "vertex" | "tetrahedron" | "input vertex" | "input triangle"; number: number } | { kind: "point"; point: [number, number, number] };
 }
 
 export interface Verdict {
   /** As docs/commands.md explains them. */
   verdict: "exact" | "rounded" | "deviating" | "undecided" | "broken";
   passed: boolean;
-  /** For each oracle that failed the first five violations. */
+  /** For each oracle that failed the first five violations; for each that cannot decide, why. */
   reasons: Reason[];
   /** What is taken for granted, and was not shown. */
   unproven: string[];
@@ -52,7 +52,7 @@ export interface Verdict {
 
 export declare class Verifier {
   constructor(module: WebAssembly.Module);
-  /** Is the mesh one of the surface? Throws an Error where a file cannot be read, or the surface bounds no solid. */
+  /** Is the mesh one of the surface? Formats of one file each, under different names. Throws an Error where one cannot be read, or the surface bounds no solid. */
   verify(surface: NamedFile, mesh: NamedFile, options?: VerifyOptions): Verdict;
 }
 

@@ -1,7 +1,8 @@
 // The command lines of delmesher and of `tetproof verify`, as functions: files go in and come out in memory.
 import { Wasi } from "./wasi.js";
 
-async function compile(source) {
+/** Of bytes, a URL, or compiled already. */
+export async function compile(source) {
   if (source instanceof WebAssembly.Module) return source;
   if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
   const url = new URL(source, import.meta.url);
@@ -76,12 +77,13 @@ export class Verifier {
   /** Is the mesh one of the surface? Judged as by `tetproof verify SURFACE MESH --json`; throws an Error where a file cannot be read. */
   verify(surface, mesh, { promised = "mesh", onProgress } = {}) {
     const paths = [surface, mesh].map(({ name }) => (name.startsWith("-") ? `./${name}` : name));
+    if (surface.name === mesh.name) throw new Error(`${mesh.name}: the surface and the mesh need different names`);
     const files = { [surface.name]: surface.bytes, [mesh.name]: mesh.bytes };
     const { code, out, error } = this.program.run(["verify", ...paths, "--promised", promised, "--json"], { files, onProgress });
     if (!out.startsWith("{")) throw new Error(error.trim());
     const report = JSON.parse(out);
     const reasons = report.oracles.filter(({ status }) => status === "FAIL" || status === "undecided").flatMap(({ name, findings, notes }) =>
-      (findings.length > 0 ? findings : notes.slice(-1)).map((text) => ({ oracle: name, text, ...place_in(text) })));
+      (findings.length > 0 ? findings : notes.length > 0 ? notes.slice(-1) : ["nothing to check"]).map((text) => ({ oracle: name, text, ...place_in(text) })));
     return { verdict: report.verdict, passed: code === 0, reasons, unproven: report.unproven ?? [], report };
   }
 }
