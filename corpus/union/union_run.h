@@ -32,7 +32,7 @@ class UnionRun {
   }
   // As they are given; all others are in units.
   std::string length(double x) const { return number(std::ldexp(x, unit_)); }
-  std::string volume_in_units(double x) const { return number(std::ldexp(x, 3 * unit_)); }
+  std::string volume_as_given(double x) const { return number(std::ldexp(x, 3 * unit_)); }
   std::string place(Position p) const {
     scale(p, unit_);
     return unite::place(p);

@@ -218,9 +218,9 @@ void Uniter::tell_result() {
   tell(counts.flat_vertices, "vertex within a flat side or a straight edge dropped",
        "vertices within flat sides and straight edges dropped");
   result_.done.push_back(counted(counts.bodies_before, "body", "bodies") + " of volume " +
-                         volume_in_units(counts.volume_before) + " became " +
+                         volume_as_given(counts.volume_before) + " became " +
                          std::to_string(counts.bodies_after) + " of " +
-                         volume_in_units(counts.volume_after));
+                         volume_as_given(counts.volume_after));
   tell(counts.needles, "triangle removed that was as thin as roundings",
        "triangles removed that were as thin as roundings");
   tell(new_needles().size(), "triangle left that is as thin as roundings",

@@ -37,6 +37,9 @@ struct Triangle {
   bool is_ambiguous = false;  // as of SplitTriangles
   // The tetrahedron in front, where its corners are seen counter-clockwise, and the one behind.
   std::array<Index, 2> beside = {kNobody, kNobody};
+
+  bool is_bare() const { return beside[0] == kNobody && beside[1] == kNobody; }
+  bool is_wall() const { return beside[0] != kNobody && beside[1] != kNobody; }
 };
 
 class Parts {
@@ -137,7 +140,7 @@ class Parts {
     std::vector<Face> faces;
     for (Index n = 0; n < triangles_.size(); ++n) {
       const Triangle& t = triangles_[n];
-      if (t.beside[0] != kNobody || t.beside[1] != kNobody) continue;
+      if (!t.is_bare()) continue;
       if (*std::ranges::min_element(t.corners) < complex_.first_vertex) continue;
       asked.push_back(n);
       faces.push_back(t.corners);
@@ -184,10 +187,7 @@ class Parts {
 
   // --- what triangles explain whose reading is ambiguous
   // Is it one, and no face?
-  bool is_unread(Index n) const {
-    const Triangle& t = triangles_[n];
-    return t.is_ambiguous && !torn_ && t.beside[0] == kNobody && t.beside[1] == kNobody;
-  }
+  bool is_unread(Index n) const { return triangles_[n].is_ambiguous && triangles_[n].is_bare(); }
   // Is it one, or does it have an edge in common with one?
   bool is_beside_unread(Index n) const {
     const Face& t = triangles_[n].whole;
@@ -197,23 +197,21 @@ class Parts {
     });
   }
   void find_unread() {
+    const auto count = std::count_if(triangles_.begin(), triangles_.begin() + given_,
+                                     [](const Triangle& t) { return t.is_ambiguous; });
+    if (torn_ || count > static_cast<std::ptrdiff_t>(kMostSplit)) {
+      for (Triangle& t : triangles_) t.is_ambiguous = false;
+    }
     for (Index n = 0; n < given_; ++n) {
-      if (!triangles_[n].is_ambiguous || torn_) continue;
-      ambiguous_.push_back(triangles_[n].whole);
+      if (triangles_[n].is_ambiguous) ambiguous_.push_back(triangles_[n].whole);
       if (is_unread(n)) unread_.push_back(triangles_[n].whole);
     }
-    if (ambiguous_.size() <= kMostSplit) return;
-    ambiguous_.clear();
-    unread_.clear();
   }
   // Does the face lie on one of these?
   bool lies_on(const std::vector<Face>& triangles, const Face& face) const {
     return std::ranges::any_of(triangles, [&](const Face& t) {
-      return std::ranges::all_of(face, [&](Index v) {
-        return square_root(squared_distance_to_triangle(points_, v, t), points_.exponent()) *
-                   (1 + 1e-12) <=
-               near_;
-      });
+      return std::ranges::all_of(
+          face, [&](Index v) { return distance_rounded_up(points_, v, t) <= near_; });
     });
   }
   // Of what is no triangle: where some are not read, others may be read as they are not.
@@ -289,12 +287,11 @@ class Parts {
     std::uint64_t bare = 0;
     for (Index n = 0; n < triangles_.size(); ++n) {
       const Triangle& t = triangles_[n];
-      if (t.beside[0] != kNobody || t.beside[1] != kNobody) continue;
+      if (!t.is_bare()) continue;
       ++bare;
       const RayCrossings above = outer_->above(t.corners);
       if (above.on_triangle || above.winding != 0) {
-        fail(result_.parts, name(t) + " is not a face of the mesh",
-             is_unread(n) && !unread_.empty());
+        fail(result_.parts, name(t) + " is not a face of the mesh", is_unread(n));
       }
     }
     result_.parts.figures.emplace_back("triangles that bound nothing", static_cast<double>(bare));
@@ -318,8 +315,7 @@ class Parts {
       fail(result_.parts,
            "a part that is bounded by " + name(triangles_[shell.sides.front() / 2]) +
                " has no tetrahedra",
-           std::ranges::any_of(
-               shell.sides, [&](Index side) { return is_unread(side / 2) && !unread_.empty(); }));
+           std::ranges::any_of(shell.sides, [&](Index side) { return is_unread(side / 2); }));
     }
   }
 
@@ -483,14 +479,11 @@ class Parts {
   bool are_joined(std::int64_t region, std::int64_t other) {
     if (unread_.empty()) return false;
     if (joined_.empty()) find_joined();
-    const auto number = [&](std::int64_t n) { return joined_.try_emplace(n, n).first->second; };
-    return number(region) == number(other);
+    return joined_.at(region) == joined_.at(other);
   }
   void find_joined() {
     std::size_t asked = 0;
-    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
-      joined_.try_emplace(mesh_.regions[t], mesh_.regions[t]);
-    }
+    for (const std::int64_t region : mesh_.regions) joined_.try_emplace(region, region);
     for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
       for (int i = 0; i < 4; ++i) {
         const Index across = neighbours_.across[4 * t + static_cast<Index>(i)];
@@ -629,12 +622,9 @@ class Parts {
     }
   }
 
-  static bool is_wall(const Triangle& t) {
-    return t.beside[0] != kNobody && t.beside[1] != kNobody;
-  }
   // Is one of those given as that listed one is? Those of split walls are two of the file.
   bool is_as_given(const Triangle& t, std::size_t listed, bool even) const {
-    if (splits_walls() && is_wall(t)) return true;
+    if (splits_walls() && t.is_wall()) return true;
     const bool labelled = listed < mesh_.labels.size() && !input_.labels.empty();
     for (std::size_t n = 0; n < t.labels.size(); ++n) {
       if (t.even[n] == even && (!labelled || t.labels[n] == mesh_.labels[listed])) return true;
@@ -662,7 +652,7 @@ class Parts {
       if (listed[t]++ != 0) result_.list.fail(what + " is listed twice");
       // Which side of a split wall is listed here, and so which label, is seen by its own oracle.
       const bool is_labelled = n < mesh_.labels.size() && !input_.labels.empty() &&
-                               !(splits_walls() && is_wall(triangles_[t]) &&
+                               !(splits_walls() && triangles_[t].is_wall() &&
                                  result_.pieces.contains(triangles_[t].sorted));
       if (is_labelled && std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
         result_.list.fail(what + " has label " + std::to_string(mesh_.labels[n]) + ", and " +
@@ -673,8 +663,7 @@ class Parts {
     }
     if (turned > 0) result_.list.figures.emplace_back(kTurned, static_cast<double>(turned));
     for (Index t = 0; t < triangles_.size(); ++t) {
-      const bool face = triangles_[t].beside[0] != kNobody || triangles_[t].beside[1] != kNobody;
-      if (face && listed[t] == 0) {
+      if (!triangles_[t].is_bare() && listed[t] == 0) {
         fail(result_.list, name(triangles_[t]) + " is not listed",
              !unread_.empty() && triangles_[t].is_ambiguous);
       }

@@ -8,6 +8,17 @@
 #include "oracles/surface/input_surface.h"
 
 namespace tetproof::oracles {
+namespace {
+
+double rounded_up(const ExactPoints& points, const mpq_class& squared) {
+  return square_root(squared, points.exponent()) * (1 + 1e-12);
+}
+
+}  // namespace
+
+double distance_rounded_up(const ExactPoints& points, Index v, const Face& triangle) {
+  return rounded_up(points, squared_distance_to_triangle(points, v, triangle));
+}
 
 SplitTriangles::SplitTriangles(const TetComplex& complex, std::span<const std::int64_t> regions,
                                std::span<const Face> triangles, double near)
@@ -59,23 +70,16 @@ std::vector<SplitTriangles::Split> SplitTriangles::read(const Neighbours& neighb
   return result;
 }
 
-double SplitTriangles::rounded_up(const mpq_class& squared) const {
-  return square_root(squared, points_.exponent()) * (1 + 1e-12);
-}
-double SplitTriangles::distance(Index v, const Face& triangle) const {
-  return rounded_up(squared_distance_to_triangle(points_, v, triangle));
-}
-
 // False if one is near two sides, or their order is none.
 bool SplitTriangles::find_vertices(const Face& triangle, const std::vector<Index>& around,
                                    Vertices& vertices) const {
   for (const Index v : around) {
-    double off = distance(v, triangle);
+    double off = distance_rounded_up(points_, v, triangle);
     if (!(off <= near_)) continue;
     int sides = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double off_side =
-          rounded_up(squared_distance_to_segment(points_, v, triangle[k], triangle[(k + 1) % 3]));
+      const double off_side = rounded_up(
+          points_, squared_distance_to_segment(points_, v, triangle[k], triangle[(k + 1) % 3]));
       if (!(off_side <= near_)) continue;
       ++sides;
       off = std::max(off, off_side);
@@ -116,7 +120,7 @@ void SplitTriangles::find_triangles(const BoxTree& tree, std::span<const Index> 
     tree.query(enlarged(box_around(points_, triangle), near_), around);
     for (const Index n : around) {
       const auto at = triangles_at_.find(added[n]);
-      if (at != triangles_at_.end() && distance(added[n], triangle) <= near_) {
+      if (at != triangles_at_.end() && distance_rounded_up(points_, added[n], triangle) <= near_) {
         at->second.push_back(triangle);
       }
     }

@@ -28,6 +28,9 @@
 
 namespace tetproof::oracles {
 
+// In input units.
+double distance_rounded_up(const ExactPoints& points, Index v, const Face& triangle);
+
 class SplitTriangles {
  public:
   struct Split {
@@ -61,8 +64,6 @@ class SplitTriangles {
 
   bool find_vertices(const Face& triangle, const std::vector<Index>& around,
                      Vertices& vertices) const;
-  double rounded_up(const mpq_class& squared) const;
-  double distance(Index v, const Face& triangle) const;
   void find_triangles(const BoxTree& tree, std::span<const Index> added,
                       std::span<const Vertices> found);
   bool is_beside_others(const Face& triangle, const Vertices& vertices) const;

@@ -30,10 +30,19 @@ const lasting = (text) => text.replaceAll(/ in [0-9.]+ s;/g, " in N s;").replace
 let wrong = 0, compared = 0, placed = 0;
 const time = { native: 0, wasm: 0 }, verdicts = {};
 
-function compare(args, name, bytes) {
+/** In a folder of its own that has the files. */
+function in_folder(files, use) {
   const folder = mkdtempSync(join(tmpdir(), "delmesher-"));
   try {
-    writeFileSync(join(folder, name), bytes);
+    for (const [name, bytes] of Object.entries(files)) writeFileSync(join(folder, name), bytes);
+    return use(folder);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+function compare(args, name, bytes) {
+  in_folder({ [name]: bytes }, (folder) => {
     const words = args.map((word) => (word === "IN" ? name : word));
     const began = performance.now();
     const expected = spawnSync(native, words, { cwd: folder, encoding: "utf8", maxBuffer: 2 ** 30 });
@@ -62,9 +71,7 @@ function compare(args, name, bytes) {
     for (const [file, content] of Object.entries(written)) {
       if (found.files[file] !== undefined && !content.equals(found.files[file])) complain(`${file}: other bytes`);
     }
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  });
 }
 
 // Without CGAL, which oracles "input" and "hull" ask, and with other functions of angles: figures may differ in their last digits.
@@ -72,9 +79,7 @@ const same_figures = (a = {}, b = {}) => Object.keys(a).length === Object.keys(b
   Object.entries(a).every(([key, value]) => Math.abs(value - b[key]) <= 1e-9 * Math.abs(value));
 
 function compare_verdicts(surface, mesh, promised) {
-  const folder = mkdtempSync(join(tmpdir(), "delmesher-"));
-  try {
-    for (const { name, bytes } of [surface, mesh]) writeFileSync(join(folder, name), bytes);
+  return in_folder({ [surface.name]: surface.bytes, [mesh.name]: mesh.bytes }, (folder) => {
     const words = ["verify", surface.name, mesh.name, "--promised", promised, "--json"];
     const expected = spawnSync(join(dirname(native), "tetproof"), words, { cwd: folder, encoding: "utf8", maxBuffer: 2 ** 30 });
     const theirs = JSON.parse(expected.stdout), ours = verifier.verify(surface, mesh, { promised });
@@ -98,9 +103,7 @@ function compare_verdicts(surface, mesh, promised) {
     });
     if ((ours.reasons.length > 0) !== ["broken", "undecided"].includes(ours.verdict)) complain(`reasons: ${JSON.stringify(ours.reasons)}`);
     return ours;
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  });
 }
 
 // The mesh as it is, one that lacks a tetrahedron, one with a vertex moved.
@@ -128,11 +131,10 @@ function verify_records(surface) {
     const made = delmesher.run(["mesh", surface.name, "-o", mesh, "--surface", "split", "--exact", "out.exact"], { files });
     if (made.code !== 0) continue;
     const words = ["verify", surface.name, mesh, "--exact", "out.exact", "--promised", "mesh --surface split", "--json"];
-    const folder = mkdtempSync(join(tmpdir(), "delmesher-"));
-    try {
-      for (const [name, content] of Object.entries({ ...files, ...made.files })) writeFileSync(join(folder, name), content);
+    const all = { ...files, ...made.files };
+    in_folder(all, (folder) => {
       const expected = spawnSync(join(dirname(native), "tetproof"), words, { cwd: folder, encoding: "utf8", maxBuffer: 2 ** 30 });
-      const found = verifier.program.run(words, { files: { ...files, ...made.files } });
+      const found = verifier.program.run(words, { files: all });
       const said = (text) => JSON.parse(text).oracles.filter(({ name }) => !["input", "hull", "exact-second-kernel"].includes(name))
         .map(({ name, status, checked, violations }) => [name, status, checked, violations].join(" ")).join("; ");
       ++compared;
@@ -140,9 +142,7 @@ function verify_records(surface) {
         ++wrong;
         console.log(`${words.join(" ")}: ${said(found.out)}, not ${said(expected.stdout)}`);
       }
-    } finally {
-      rmSync(folder, { recursive: true });
-    }
+    });
   }
 }
 
