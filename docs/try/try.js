@@ -44,16 +44,13 @@ async function run(name, job) {
       $("mesh").disabled = $("verify").disabled = false;
       done(result);
     };
-    const fail = (error) => {
+    const end_worker = (result) => {
       worker?.terminate();
       worker = undefined;
-      leave({ code: 6, out: "", error: error.message ?? "the worker ended", files: {} });
+      leave(result);
     };
-    end_job = () => {
-      worker?.terminate();
-      worker = undefined;
-      leave(null);
-    };
+    const fail = (error) => end_worker({ code: 6, out: "", error: error.message ?? "the worker ended", files: {} });
+    end_job = () => end_worker(null);
     const start = (module) => {
       if (left) return;
       worker ??= new Worker("worker.js", { type: "module" });
