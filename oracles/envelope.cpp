@@ -592,9 +592,7 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
     return {};
   }
   // Numbers of its own surface are not those of the input.
-  for (OracleReport& oracle : report.oracles) {
-    std::erase_if(oracle.sites, [](const Site& p) { return p.kind >= Site::Kind::input_vertex; });
-  }
+  for (OracleReport& oracle : report.oracles) oracle.forget_sites(Site::Kind::input_vertex);
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);
   if (std::string why = turn_outwards(given); !why.empty()) return why;

@@ -211,6 +211,7 @@ void SolidStep::check_names() {
                               : "the names were not compared: those of the input are not read");
     names.violations = 0;
     names.findings.clear();
+    names.spots.clear();
   }
   if (sides.violations > 0) return add(std::move(sides));
   if (names.checked > 0 && !(input_.names.empty() && names.passed() && names.notes.empty())) {

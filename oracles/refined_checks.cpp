@@ -101,9 +101,10 @@ OracleReport RefinedInside::check_contained(const TetComplex& complex, const Pla
     ++contained.checked;
     inside += complex.inside[t];
     if (within == (complex.inside[t] != 0)) continue;
-    contained.fail(complex.tet_name(t) +
-                   (within ? " is contained in the solid but is not called inside"
-                           : " is called inside but is not contained in the solid"));
+    contained.fail(
+        complex.tet_name(t) + (within ? " is contained in the solid but is not called inside"
+                                      : " is called inside but is not contained in the solid"),
+        complex.tet_site(t));
   }
   contained.figures.emplace_back("called inside", static_cast<double>(inside));
   return contained;

@@ -134,7 +134,48 @@ void put_in_given_units(const Frame& frame, VerifyReport& report) {
   }
 }
 
+// Nothing where a corner does not exist, or is not finite.
+template <std::size_t N>
+std::optional<Position> middle(const std::vector<Position>& vertices,
+                               const std::array<Index, N>& corners, std::size_t count = N) {
+  Position sum = {};
+  for (std::size_t k = 0; k < count; ++k) {
+    if (corners[k] >= vertices.size()) return std::nullopt;
+    for (std::size_t d = 0; d < 3; ++d) {
+      sum[d] += vertices[corners[k]][d] / static_cast<double>(count);
+    }
+  }
+  return is_finite(sum) ? std::optional(sum) : std::nullopt;
+}
+template <std::size_t N>
+std::optional<Position> middle_of(const std::vector<Position>& vertices,
+                                  const std::vector<std::array<Index, N>>& elements, Index number) {
+  return number < elements.size() ? middle(vertices, elements[number]) : std::nullopt;
+}
+
+std::optional<Position> middle_of(const Site& site, const Polyhedron& input, const MeshFile& mesh) {
+  switch (site.kind) {
+    case Site::Kind::tetrahedron:
+      return middle_of(mesh.vertices, mesh.tetrahedra, site.numbers[0]);
+    case Site::Kind::listed_triangle:
+      return middle_of(mesh.vertices, mesh.boundary, site.numbers[0]);
+    case Site::Kind::input_triangle:
+      return middle_of(input.vertices, input.triangles, site.numbers[0]);
+    default:
+      return middle(site.kind < Site::Kind::input_vertex ? mesh.vertices : input.vertices,
+                    site.numbers, kSiteKinds[static_cast<std::size_t>(site.kind)].numbers);
+  }
+}
+
 }  // namespace
+
+void locate(const Polyhedron& input, const MeshFile& mesh, VerifyReport& report) {
+  for (OracleReport& oracle : report.oracles) {
+    for (Spot& spot : oracle.spots) {
+      if (spot.site && !spot.at) spot.at = middle_of(*spot.site, input, mesh);
+    }
+  }
+}
 
 // Frames the task, runs the steps of the plan, and concludes.
 std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
@@ -219,7 +260,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   report.unproven.emplace_back(kInputNotAsked);
 #endif
   if (frame.merged) {  // their numbers are those of one vertex at each place
-    for (OracleReport& oracle : report.oracles) oracle.sites.clear();
+    for (OracleReport& oracle : report.oracles) oracle.forget_sites();
   }
   conclude(diagonal, report);
   put_in_given_units(frame, report);

@@ -20,4 +20,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh,
                    const delmesher::ExactRecord* exact, const VerifyOptions& options,
                    VerifyReport& report, const Expendable& expendable = {});
 
+// Where the elements that findings name are, by what was given.
+void locate(const Polyhedron& input, const MeshFile& mesh, VerifyReport& report);
+
 }  // namespace tetproof::oracles

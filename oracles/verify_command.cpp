@@ -162,6 +162,24 @@ std::string verify_mesh(const Arguments& arguments, VerifyReport& report) {
   return verify(input, mesh, exact, options, report, {&mesh, exact});
 }
 
+// Where findings are; what they are of was given up, so it is read again. In the plane there is no
+// more to know.
+void locate_findings(const Arguments& arguments, VerifyReport& report) {
+  const auto has_site = [](const OracleReport& oracle) {
+    return std::ranges::any_of(oracle.spots,
+                               [](const Spot& spot) { return spot.site.has_value(); });
+  };
+  const auto is_file = [](const std::string& path) {
+    std::error_code unknown;
+    return std::filesystem::is_regular_file(path, unknown);
+  };
+  if (!is_file(arguments.input) || !is_file(arguments.mesh)) return;
+  if (std::ranges::none_of(report.oracles, has_site)) return;
+  const bool of_surface = arguments.options.promised.task != Task::improve;
+  locate(of_surface ? read_surface(arguments.input) : Polyhedron(), read_mesh(arguments.mesh),
+         report);
+}
+
 // The same in the plane.
 std::string verify_plane_mesh(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
@@ -214,6 +232,7 @@ int verify_files(const Arguments& arguments) {
                           : "");
     return kInvalid;
   }
+  if (arguments.json) locate_findings(arguments, report);
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
   if (!arguments.json && (task == Task::mesh || task == Task::cdt)) {
     std::fputs(way_on(arguments, report).c_str(), stdout);

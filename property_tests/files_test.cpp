@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include "mesher/delmesher.h"
@@ -345,6 +347,44 @@ TEST_F(Files, AFailureIsExplainedOnce) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(verify({"--help"}), 0);
   EXPECT_NE(testing::internal::GetCapturedStdout().find("{final|refined}"), std::string::npos);
+}
+
+// JSON says where findings are: elements of the mesh and of the input, with their middles.
+TEST_F(Files, FindingsHavePlaces) {
+  write_off("in.off", samples::cube().input);
+  write_off("other.off", samples::l_shape().input);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + " -o " + path("out.mesh")), 0);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(verify({path("other.off"), path("out.mesh"), "--json"}), 1);
+  testing::internal::GetCapturedStderr();
+  const auto report = nlohmann::json::parse(testing::internal::GetCapturedStdout());
+  const oracles::Polyhedron other = oracles::read_surface(path("other.off"));
+  const oracles::MeshFile mesh = oracles::read_mesh(path("out.mesh"));
+  std::set<std::string> kinds;
+  for (const auto& oracle : report["oracles"]) {
+    ASSERT_EQ(oracle["places"].size(), oracle["findings"].size());
+    for (std::size_t n = 0; n < oracle["places"].size(); ++n) {
+      const auto& place = oracle["places"][n];
+      if (!place.contains("kind")) continue;
+      const std::string kind = place["kind"], said = oracle["findings"][n];
+      kinds.insert(kind);
+      std::vector<oracles::Index> corners = place["numbers"];
+      const std::string name = kind == "tetrahedra" ? "tetrahedron " : "input vertex ";
+      EXPECT_NE(said.find(name + std::to_string(corners[0]) + " "), std::string::npos) << said;
+      if (kind == "tetrahedra") {
+        const oracles::Tet& tet = mesh.tetrahedra.at(corners[0]);
+        corners.assign(tet.begin(), tet.end());
+      }
+      const auto& vertices = kind == "tetrahedra" ? mesh.vertices : other.vertices;
+      for (std::size_t d = 0; d < 3; ++d) {
+        double sum = 0;
+        for (const oracles::Index v : corners) sum += vertices.at(v)[d];
+        EXPECT_NEAR(place["at"][d], sum / static_cast<double>(corners.size()), 1e-15) << said;
+      }
+    }
+  }
+  EXPECT_EQ(kinds, (std::set<std::string>{"input vertices", "tetrahedra"})) << report.dump(1);
 }
 
 // The output is the refined mesh, of the chamfered wedge. With the sidecar it is taken for that.

@@ -139,6 +139,7 @@ py::dict verify_arrays(const Array<double>& points, const Array<std::uint32_t>& 
       near = nearness(input, mesh);
     }
   }
+  locate(input, mesh, report);
   py::dict d;
   if (!why.empty()) {
     d["invalid"] = why;

@@ -101,8 +101,6 @@ async function open(name, bytes) {
   const vtu = read_vtu(result.files["defects.vtu"]);
   // The file's first comment numbers the kinds from 1.
   const kinds = new TextDecoder().decode(result.files["defects.vtu"].subarray(0, 1000)).match(/defect: ([^>]*) -->/)[1].split(", ").map((kind) => kind.slice(kind.indexOf(" ") + 1));
-  input.points = vtu.points;
-  input.triangles = vtu.cells[3];
   document.body.classList.add("loaded");
   view.show_surface(vtu, (number) => kColours[kinds[number]], report.defects.flatMap((defect) => defect.points));
   $("options").hidden = false;
@@ -171,7 +169,7 @@ async function mesh() {
   }));
   $("downloads").hidden = $("cutting").hidden = false;
   const { points, cells } = read_vtu(vtu[1]), [name, bytes] = files.find(([path]) => path.endsWith(".msh"));
-  meshed = { file: { name, bytes }, promised: ["mesh", ...args.filter((word) => /^--\w+=/.test(word))].join(" "), points, tetrahedra: cells[4] };
+  meshed = { file: { name, bytes }, promised: ["mesh", ...args.filter((word) => /^--\w+=/.test(word))].join(" ") };
   view.take_mesh({ points, cells });
   $("cut").value = 500;
   cut();
@@ -190,9 +188,8 @@ async function verify() {
     const item = document.createElement("li"), button = document.createElement("button");
     button.type = "button";
     button.textContent = `${oracle}: ${text}`;
-    const at = place && place_of(place);
-    button.disabled = !at;
-    button.onclick = () => view.go_to(at);
+    button.disabled = !place?.at;
+    button.onclick = () => view.go_to(place.at);
     item.append(button);
     return item;
   }));
@@ -202,18 +199,6 @@ async function verify() {
   $("unproven").textContent = judged + (unproven.length > 0 ? `Not shown: ${unproven.join("; ")}.` : "");
   $("verdict").hidden = false;
   $("verdict").scrollIntoView({ block: "nearest" });
-}
-
-/** The middle of what a reason names; of a surface that moved, only what the mesh has. */
-function place_of({ kind, number, point }) {
-  if (point) return point;
-  const of_input = kind.startsWith("input");
-  if (of_input && meshed.promised.includes("--tolerance")) return undefined;
-  const { points } = of_input ? input : meshed;
-  const corners = kind === "tetrahedron" ? meshed.tetrahedra.slice(4 * number, 4 * number + 4)
-    : kind === "input triangle" ? input.triangles.slice(3 * number, 3 * number + 3) : [number];
-  const middle = [0, 1, 2].map((k) => corners.reduce((sum, v) => sum + points[3 * Number(v) + k], 0) / corners.length);
-  return middle.every(Number.isFinite) ? middle : undefined;
 }
 
 function size_text(bytes) {

@@ -116,9 +116,12 @@ class Conformity {
     result_.failed_edges.push_back(static_cast<Index>(&edge - surface_.edges().data()));
     result_.report.fail(what, {Site::Kind::input_edge, {edge.from, edge.to, 0}});
   }
-  void fail_facet(Index facet, const std::string& what) {
+  // All triangles of the facet are named in the end.
+  void fail_facet(Index facet, const std::string& what, const std::optional<Site>& site = {}) {
     result_.failed_facets.push_back(facet);
-    result_.report.fail(what);
+    const Site any = {Site::Kind::input_triangle, {surface_.facets()[facet].id, 0, 0}};
+    result_.report.fail(what, Spot{site.value_or(any)});
+    if (site) result_.report.add_site(*site);
   }
   std::string facet_name(Index facet) const {
     return "facet " + std::to_string(surface_.facets()[facet].id);
@@ -288,9 +291,11 @@ void Conformity::check_border(Index a, std::size_t edge) {
               other = result_.facets[edges[back.first].face];
   const Index wanted = edges.left_of(edge) == kNone ? other : edges.left_of(edge);
   if (mine != wanted && mine != kNone && wanted != kNone) {
-    fail_facet(mine, name() + " separates facets " + std::to_string(surface_.facets()[mine].id) +
-                         " and " + std::to_string(surface_.facets()[wanted].id) +
-                         ", which do not meet there");
+    fail_facet(mine,
+               name() + " separates facets " + std::to_string(surface_.facets()[mine].id) +
+                   " and " + std::to_string(surface_.facets()[wanted].id) +
+                   ", which do not meet there",
+               complex_.edge_site(a, b));
   }
 }
 
@@ -397,8 +402,8 @@ void Conformity::check_folded(Index facet, const std::vector<Face>& folded,
                               std::span<const Index> triangles) {
   const auto fail_folded = [&](const Face& face) {
     fail_facet(facet,
-               "boundary " + complex_.face_name(face) + " is folded over on " + facet_name(facet));
-    result_.report.add_site(complex_.face_site(face));
+               "boundary " + complex_.face_name(face) + " is folded over on " + facet_name(facet),
+               complex_.face_site(face));
   };
   if (options_.exact) {
     for (const Face& face : folded) fail_folded(face);
@@ -470,8 +475,8 @@ void Conformity::check_in_plane(Index facet, Index v) {
   const ExactNumber off = exact::dot(normal, exact::difference(points_, input.span[0], v));
   const double distance = std::fabs(component(off, normal, points_.exponent()));
   if (options_.exact || !(distance <= most_off_plane(facet, distance))) {
-    fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet));
-    result_.report.add_site(complex_.vertex_site(v));
+    fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet),
+               complex_.vertex_site(v));
   } else {
     deviate(distance, ulp_on(facet));
   }

@@ -230,11 +230,12 @@ OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbo
     const Tet& tet = complex.tetrahedra[i / 4];
     sphere.move_to(*complex.points, tet, i / 4);
     if (opinions.insphere(sphere, tet, opposite, report) > 0) {
-      report.fail(names.face(i, opposite));
+      report.fail(names.face(i, opposite), complex.tet_site(i / 4));
     }
   }
   const std::uint64_t tried = for_each_inside(complex, [&](std::size_t t, Index v) {
-    report.fail(complex.vertex_name(v) + " lies inside the circumsphere of " + complex.tet_name(t));
+    report.fail(complex.vertex_name(v) + " lies inside the circumsphere of " + complex.tet_name(t),
+                complex.tet_site(t));
   });
   report.checked += tried;
   report.figures.emplace_back("tetrahedra tried against all vertices", tried);
@@ -272,7 +273,7 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
                                   : sphere.insphere(*complex.points, tet, opposite);
     if (side <= 0) continue;
     ++not_delaunay;
-    if (options.gate) report.fail(names.face(i, opposite));
+    if (options.gate) report.fail(names.face(i, opposite), complex.tet_site(i / 4));
   }
   report.figures.emplace_back("not locally Delaunay", not_delaunay);
   if (!options.gate) return report;
@@ -281,8 +282,9 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
   const std::uint64_t tried = for_each_inside(complex, [&](std::size_t t, Index v) {
     ++inside;
     if (sight.blocked(t, v)) return;
-    report.fail(complex.tet_name(t) + " sees " + complex.vertex_name(v) +
-                " inside its circumsphere");
+    report.fail(
+        complex.tet_name(t) + " sees " + complex.vertex_name(v) + " inside its circumsphere",
+        complex.tet_site(t));
   });
   report.checked += tried;
   report.figures.emplace_back("tetrahedra tried against all vertices", tried);

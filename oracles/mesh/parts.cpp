@@ -86,6 +86,7 @@ class Parts {
   static constexpr std::size_t kMostSplit = 1000;
 
   std::string name(const Triangle& t) const { return "triangle " + std::to_string(t.given); }
+  static Site site(const Triangle& t) { return {Site::Kind::input_triangle, {t.given, 0, 0}}; }
 
   // One vertex of several at the same place: one of the mesh, if there is one.
   std::vector<Index> vertices_by_place() {
@@ -218,8 +219,8 @@ class Parts {
   bool is_explained(const Face& face) const {
     return !unread_.empty() && lies_on(ambiguous_, face);
   }
-  void fail(OracleReport& report, const std::string& finding, bool explained) {
-    report.fail(finding);
+  void fail(OracleReport& report, const std::string& finding, const Site& site, bool explained) {
+    report.fail(finding, site);
     if (explained) ++explained_[&report];
   }
   // Where they explain every violation of a report, nothing is known to be wrong.
@@ -263,7 +264,7 @@ class Parts {
     for (const Face& face : strays_) {
       fail(result_.parts,
            complex_.face_name(face) + " is of one tetrahedron alone, and no triangle of the input",
-           strays_.size() <= kMostSplit && is_explained(face));
+           complex_.face_site(face), strays_.size() <= kMostSplit && is_explained(face));
     }
   }
 
@@ -274,10 +275,12 @@ class Parts {
       const Face& face = outer_->faces()[n];
       const RayCrossings above = outer_->above(face, n);
       if (above.on_triangle) {
-        result_.parts.fail(complex_.face_name(face) + " lies on another outer face");
+        result_.parts.fail(complex_.face_name(face) + " lies on another outer face",
+                           complex_.face_site(face));
       } else if (above.winding != (looks_up(points_, face) ? 0 : 1)) {
         result_.parts.fail("beside " + complex_.face_name(face) +
-                           " the outer faces wind around a point not 0 or 1 times");
+                               " the outer faces wind around a point not 0 or 1 times",
+                           complex_.face_site(face));
       }
     }
   }
@@ -291,7 +294,7 @@ class Parts {
       ++bare;
       const RayCrossings above = outer_->above(t.corners);
       if (above.on_triangle || above.winding != 0) {
-        fail(result_.parts, name(t) + " is not a face of the mesh", is_unread(n));
+        fail(result_.parts, name(t) + " is not a face of the mesh", site(t), is_unread(n));
       }
     }
     result_.parts.figures.emplace_back("triangles that bound nothing", static_cast<double>(bare));
@@ -307,7 +310,7 @@ class Parts {
       fail(result_.parts,
            "between " + name(triangles_[here]) + " and " + name(triangles_[next]) +
                " there is a part of a wedge",
-           is_beside_unread(here) || is_beside_unread(next));
+           site(triangles_[here]), is_beside_unread(here) || is_beside_unread(next));
     }
     find_points_of_shells();
     for (const auto& [number, shell] : shells_->all()) {
@@ -315,6 +318,7 @@ class Parts {
       fail(result_.parts,
            "a part that is bounded by " + name(triangles_[shell.sides.front() / 2]) +
                " has no tetrahedra",
+           site(triangles_[shell.sides.front() / 2]),
            std::ranges::any_of(shell.sides, [&](Index side) { return is_unread(side / 2); }));
     }
   }
@@ -327,8 +331,9 @@ class Parts {
       for (const Index t : region_points_.around(n)) parts.insert(part_.find(t));
       if (parts.size() == 1) points_of_[*parts.begin()].push_back(n);
       if (input_.region_points[n].is_hole && parts.size() == 1) {
-        result_.parts.fail(complex_.tet_name(region_points_.around(n).front()) +
-                           " is of a part with a hole point");
+        result_.parts.fail(
+            complex_.tet_name(region_points_.around(n).front()) + " is of a part with a hole point",
+            complex_.tet_site(region_points_.around(n).front()));
       }
     }
   }
@@ -437,7 +442,8 @@ class Parts {
       const std::string name = called(t);
       if (is_asked_for(name)) continue;
       result_.parts.fail(complex_.tet_name(t) + " is of a part that is called \"" + name +
-                         "\", which is not promised");
+                             "\", which is not promised",
+                         complex_.tet_site(t));
     }
   }
 
@@ -517,10 +523,11 @@ class Parts {
         fail(result_.regions,
              complex_.tet_name(t) + " is of region " + std::to_string(region) +
                  ", others of its part are of region " + std::to_string(other),
-             are_joined(region, other));
+             complex_.tet_site(t), are_joined(region, other));
       } else if (part_of.try_emplace(region, part).first->second != part) {
         result_.regions.fail(complex_.tet_name(t) + " is of region " + std::to_string(region) +
-                             ", and so is another part");
+                                 ", and so is another part",
+                             complex_.tet_site(t));
       }
     }
     check_order(part_of);
@@ -581,7 +588,8 @@ class Parts {
       if (named == mesh_.names.end()) continue;
       if (!promise_.region_names.empty() && !is_asked_for(named->second)) {
         result_.regions.fail("region " + std::to_string(mesh_.regions[t]) + " is called " +
-                             named->second + ", which is not promised");
+                                 named->second + ", which is not promised",
+                             complex_.tet_site(t));
       }
       const auto label = labels.find(named->second);
       if (label == labels.end() || label->second.size() > 1) continue;
@@ -595,7 +603,8 @@ class Parts {
           RayTarget(points_, std::move(surface)).above(complex_.tetrahedra[t]);
       if (above.on_triangle || above.count % 2 == 0) {
         result_.regions.fail("region " + std::to_string(mesh_.regions[t]) + " is called " +
-                             named->second + ", and lies outside of that");
+                                 named->second + ", and lies outside of that",
+                             complex_.tet_site(t));
       }
     }
   }
@@ -643,20 +652,22 @@ class Parts {
     for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
       Face face = mesh_.boundary[n];
       const std::string what = "listed triangle " + std::to_string(n);
+      const Site here = {Site::Kind::listed_triangle, {static_cast<Index>(n), 0, 0}};
       for (Index& v : face) v += complex_.first_vertex;
       const Index t = triangle_of(face);
       if (t == kNobody) {
-        fail(result_.list, what + " is none of the input", is_explained(face));
+        fail(result_.list, what + " is none of the input", here, is_explained(face));
         continue;
       }
-      if (listed[t]++ != 0) result_.list.fail(what + " is listed twice");
+      if (listed[t]++ != 0) result_.list.fail(what + " is listed twice", here);
       // Which side of a split wall is listed here, and so which label, is seen by its own oracle.
       const bool is_labelled = n < mesh_.labels.size() && !input_.labels.empty() &&
                                !(splits_walls() && triangles_[t].is_wall() &&
                                  result_.pieces.contains(triangles_[t].sorted));
       if (is_labelled && std::ranges::count(triangles_[t].labels, mesh_.labels[n]) == 0) {
         result_.list.fail(what + " has label " + std::to_string(mesh_.labels[n]) + ", and " +
-                          name(triangles_[t]) + " has not");
+                              name(triangles_[t]) + " has not",
+                          here);
       } else if (!is_as_given(triangles_[t], n, sort_face(face))) {
         ++turned;
       }
@@ -664,7 +675,7 @@ class Parts {
     if (turned > 0) result_.list.figures.emplace_back(kTurned, static_cast<double>(turned));
     for (Index t = 0; t < triangles_.size(); ++t) {
       if (!triangles_[t].is_bare() && listed[t] == 0) {
-        fail(result_.list, name(triangles_[t]) + " is not listed",
+        fail(result_.list, name(triangles_[t]) + " is not listed", site(triangles_[t]),
              !unread_.empty() && triangles_[t].is_ambiguous);
       }
     }

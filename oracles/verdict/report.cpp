@@ -13,6 +13,19 @@ std::string number(double value) {
   return text;
 }
 
+nlohmann::ordered_json to_json(const Spot& spot) {
+  nlohmann::ordered_json json;  // null
+  if (spot.site) {
+    const SiteKind& kind = kSiteKinds[static_cast<std::size_t>(spot.site->kind)];
+    json["kind"] = kind.name;
+    for (std::size_t k = 0; k < kind.numbers; ++k) {
+      json["numbers"].push_back(spot.site->numbers[k]);
+    }
+  }
+  if (spot.at) json["at"] = *spot.at;
+  return json;
+}
+
 }  // namespace
 
 std::optional<double> OracleReport::figure(std::string_view figure_name) const {
@@ -87,6 +100,8 @@ std::string to_json(const VerifyReport& report) {
     entry["checked_what"] = oracle.checked_what;
     entry["violations"] = oracle.violations;
     entry["findings"] = oracle.findings;
+    entry["places"] = nlohmann::ordered_json::array();
+    for (const Spot& spot : oracle.spots) entry["places"].push_back(to_json(spot));
     entry["notes"] = oracle.notes;
     for (const auto& [name, value] : oracle.figures) entry["figures"][name] = value;
     for (const auto& [name, bins] : oracle.histograms) entry["histograms"][name] = bins;

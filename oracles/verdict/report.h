@@ -43,6 +43,12 @@ inline constexpr SiteKind kSiteKinds[] = {
     {"vertices", 1},         {"edges", 2},          {"faces", 3},       {"tetrahedra", 1},
     {"listed triangles", 1}, {"input vertices", 1}, {"input edges", 2}, {"input triangles", 1}};
 
+// Where one finding is, as far as it is known.
+struct Spot {
+  std::optional<Site> site = {};
+  std::optional<std::array<double, 3>> at = {};  // its middle, in input units
+};
+
 struct OracleReport {
   explicit OracleReport(std::string oracle_name, std::string what = {})
       : name(std::move(oracle_name)), checked_what(std::move(what)) {}
@@ -56,6 +62,7 @@ struct OracleReport {
   bool promised = true;    // false: only counted and measured, because nobody promised it
   bool undecided = false;  // its input does not tell whether the violations are real
   std::vector<std::string> findings;  // the first violations, each naming its element
+  std::vector<Spot> spots;            // where these are
   // All that are known, without a word: up to kMostSites. Some violations are nowhere, and those of
   // a facet are at all its triangles.
   std::vector<Site> sites;
@@ -66,17 +73,21 @@ struct OracleReport {
   std::vector<std::pair<std::string, std::array<std::uint64_t, 12>>> histograms;
 
   // Counts a violation and keeps the first few in words.
-  void fail(const std::string& finding) {
-    ++violations;
-    if (findings.size() < 5) findings.push_back(finding);
-  }
+  void fail(const std::string& finding) { fail(finding, Spot()); }
   void fail(const std::string& finding, const Site& site) {
-    fail(finding);
+    fail(finding, Spot{site});
     add_site(site);
   }
   void fail_at(const std::array<double, 3>& point, const std::string& finding) {
-    fail(finding);
+    fail(finding, Spot{{}, point});
     points.push_back(point);
+  }
+  // At a place that stands for others.
+  void fail(const std::string& finding, const Spot& spot) {
+    ++violations;
+    if (findings.size() == 5) return;
+    findings.push_back(finding);
+    spots.push_back(spot);
   }
   void add_site(const Site& site) {
     if (sites.size() < kMostSites) sites.push_back(site);
@@ -86,8 +97,17 @@ struct OracleReport {
     promised = false;
     violations = 0;
     findings.clear();
+    spots.clear();
     sites.clear();
     points.clear();
+  }
+  // What has other numbers than those of the files.
+  void forget_sites(Site::Kind first = {}) {
+    const auto is_other = [&](const Site& site) { return site.kind >= first; };
+    std::erase_if(sites, is_other);
+    for (Spot& spot : spots) {
+      if (spot.site && is_other(*spot.site)) spot.site.reset();
+    }
   }
   // Nothing if this oracle has no such figure.
   std::optional<double> figure(std::string_view figure_name) const;

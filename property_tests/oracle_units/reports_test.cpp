@@ -1,6 +1,7 @@
 // Reports as text and as JSON.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "oracles/verdict/report.h"
@@ -52,6 +53,30 @@ TEST(Reports, LeaveNothingOut) {
   EXPECT_FALSE(report.all_passed());
   report.oracles.clear();
   EXPECT_FALSE(report.all_passed());
+}
+
+// A place for each finding, in its order; null where that is nowhere.
+TEST(Reports, PutPlacesBesideFindings) {
+  VerifyReport report;
+  OracleReport oracle("an-oracle", "things");
+  oracle.fail("nowhere");
+  oracle.fail("an edge", Site{Site::Kind::input_edge, {3, 7, 0}});
+  oracle.fail_at({0.5, -1, 2}, "a point");
+  oracle.fail("a tetrahedron", Site{Site::Kind::tetrahedron, {4, 0, 0}});
+  oracle.fail("one for many", Spot{Site{Site::Kind::input_triangle, {1, 0, 0}}});
+  oracle.fail("too many to name", Site{Site::Kind::vertex, {9, 0, 0}});
+  EXPECT_EQ(oracle.sites.size(), 3U);
+  report.oracles = {oracle};
+  const auto places = [&] {
+    return nlohmann::json::parse(to_json(report))["oracles"][0]["places"].dump();
+  };
+  EXPECT_EQ(places(),
+            R"([null,{"kind":"input edges","numbers":[3,7]},{"at":[0.5,-1.0,2.0]},)"
+            R"({"kind":"tetrahedra","numbers":[4]},{"kind":"input triangles","numbers":[1]}])");
+  report.oracles[0].forget_sites(Site::Kind::input_vertex);
+  EXPECT_EQ(places(),
+            R"([null,null,{"at":[0.5,-1.0,2.0]},{"kind":"tetrahedra","numbers":[4]},null])");
+  EXPECT_EQ(report.oracles[0].sites.size(), 2U);
 }
 
 TEST(Reports, NameVerdicts) {

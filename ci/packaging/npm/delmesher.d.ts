@@ -31,11 +31,18 @@ export interface VerifyOptions {
   onProgress?: (line: string) => void;
 }
 
-/** A violation, and the first element of the mesh or of the surface, or the point, that it names. */
+/** An element by its number, or those of its corners, from 0; and its middle, or the point where something is wrong. */
+export interface Place {
+  kind?: "vertices" | "edges" | "faces" | "tetrahedra" | "listed triangles" | "input vertices" | "input edges" | "input triangles";
+  numbers?: number[];
+  at?: [number, number, number];
+}
+
+/** A violation, and where it is, unless it is nowhere. */
 export interface Reason {
   oracle: string;
   text: string;
-  place?: { kind: "vertex" | "tetrahedron" | "input vertex" | "input triangle"; number: number } | { kind: "point"; point: [number, number, number] };
+  place?: Place;
 }
 
 export interface Verdict {

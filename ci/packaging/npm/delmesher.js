@@ -61,14 +61,6 @@ export class Delmesher {
   }
 }
 
-/** The first element, or point, that a finding names. */
-function place_in(text) {
-  const element = text.match(/\b(?:(input vertex|input triangle|vertex|tetrahedron) |face \()(\d+)/);
-  if (element) return { place: { kind: element[1] ?? "vertex", number: Number(element[2]) } };
-  const point = text.match(/ at \(([^,()]+), ([^,()]+), ([^,()]+)\)/);
-  return point ? { place: { kind: "point", point: point.slice(1).map(Number) } } : {};
-}
-
 export class Verifier {
   constructor(module) {
     this.program = new Delmesher(module, "tetproof");
@@ -82,8 +74,8 @@ export class Verifier {
     const { code, out, error } = this.program.run(["verify", ...paths, "--promised", promised, "--json"], { files, onProgress });
     if (!out.startsWith("{")) throw new Error(error.trim());
     const report = JSON.parse(out);
-    const reasons = report.oracles.filter(({ status }) => status === "FAIL" || status === "undecided").flatMap(({ name, findings, notes }) =>
-      (findings.length > 0 ? findings : notes.length > 0 ? notes.slice(-1) : ["nothing to check"]).map((text) => ({ oracle: name, text, ...place_in(text) })));
+    const reasons = report.oracles.filter(({ status }) => status === "FAIL" || status === "undecided").flatMap(({ name, findings, places, notes }) =>
+      (findings.length > 0 ? findings : notes.length > 0 ? notes.slice(-1) : ["nothing to check"]).map((text, n) => ({ oracle: name, text, place: places[n] ?? undefined })));
     return { verdict: report.verdict, passed: code === 0, reasons, unproven: report.unproven ?? [], report };
   }
 }
