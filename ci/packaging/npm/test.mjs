@@ -92,7 +92,7 @@ function compare_verdicts(surface, mesh, promised) {
     if (ours.verdict !== theirs.verdict || ours.passed !== (expected.status === 0)) complain(`${ours.verdict}, not ${theirs.verdict}`);
     const left = ours.unproven.filter((line) => !line.includes("CGAL"));
     if (left.join() !== (theirs.unproven ?? []).join() || (!promised.includes("--tolerance") && left.length === ours.unproven.length)) complain(`unproven: ${ours.unproven}, not ${theirs.unproven}`);
-    const said = ({ name, status, checked, violations, findings }) => JSON.stringify([name, status, checked, violations, findings]);
+    const said = ({ name, status, checked, violations, findings, places }) => JSON.stringify([name, status, checked, violations, findings, places]);
     const asked = ({ name, status, checked }) => name === "hull" && status + checked;
     const judges = theirs.oracles.filter(({ name }) => name !== "input");
     if (ours.report.oracles.length !== judges.length) complain("not the same oracles");
@@ -114,12 +114,13 @@ function verify_meshes(surface) {
     const promised = ["mesh", ...options].join(" "), text = new TextDecoder().decode(made.files["out.mesh"]);
     const verdict = (content) => compare_verdicts(surface, { name: "out.mesh", bytes: new TextEncoder().encode(content) }, promised);
     verdict(text);
+    compare_verdicts(surface, { name: "out.mesh.gz", bytes: gzipSync(text) }, promised);
     const less = text.replace(/(\nTetrahedra\n)(\d+)\n.*\n/, (_, head, count) => `${head}${count - 1}\n`);
     const moved = text.replace(/(\nVertices\n\d+\n)\S+/, (_, head) => `${head}12345`);
     for (const damaged of [less, moved]) {
       const found = damaged === text ? {} : verdict(damaged);
       if (found.verdict !== "broken") ++wrong, console.log(`${surface.name}: a damaged mesh is ${found.verdict}`);
-      placed += found.reasons?.filter(({ place }) => place).length ?? 0;
+      placed += found.reasons?.filter(({ place }) => place?.at).length ?? 0;
     }
   }
 }
