@@ -97,6 +97,11 @@ def cdt(points: Any, triangles: Any = None, labels: Any = None, *, progress: Uni
     points, triangles, labels, progress
         As in `mesh`.
     **options
+
+    Raises
+    ------
+    InvalidSurface, LimitReached, ValueError, TypeError
+        As `mesh` does.
     """
     return _mesh(*_run_on_surface("cdt", points, triangles, labels, progress, options))
 
@@ -135,6 +140,11 @@ def check(points: Any, triangles: Any = None, **options: Any) -> Report:
     points, triangles
         As in `mesh`.
     **options
+
+    Raises
+    ------
+    ValueError, TypeError
+        An option or an array makes no sense, or a file is none of a surface. What is wrong with the surface is no error.
 
     >>> tetproof.check([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).counts
     {'open edge': 3}
@@ -188,10 +198,17 @@ def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: floa
 
     Parameters
     ----------
+    points, triangles, labels
+        As in `mesh`.
     weld : float
         Points no farther apart than this become one, too.
     fill : bool
         Fill holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
+
+    Raises
+    ------
+    ValueError, TypeError
+        `weld` or an array makes no sense, or a file is none of a surface.
     """
     if not 0 <= weld < np.inf:
         raise ValueError("weld must be at least 0, and finite")
@@ -235,6 +252,13 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
     progress
         As in `mesh`.
     **options
+
+    Raises
+    ------
+    InvalidSurface
+        Segments cross or overlap, or enclose nothing (`check_plane` says where).
+    LimitReached, ValueError, TypeError
+        As of `mesh`.
     """
     no_holes = np.zeros((0, 2)) if holes is None else holes
     arrays = (_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes))
@@ -262,6 +286,11 @@ def check_plane(points: Any, segments: Any) -> PlaneReport:
     points, segments
         As in `plane`.
 
+    Raises
+    ------
+    ValueError, TypeError
+        An array makes no sense.
+
     >>> tetproof.check_plane([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]]).counts
     {'crossing': 1}
     """
@@ -284,6 +313,11 @@ def repair_plane(points: Any, segments: Any, markers: Any = None, *, weld: float
         As in `plane`.
     weld : float
         Points no farther apart than this become one, the first of them. Equal ones do in any case.
+
+    Raises
+    ------
+    ValueError, TypeError
+        `weld` or an array makes no sense.
 
     >>> tetproof.repair_plane([[0, 0], [2, 2], [2, 0], [0, 2]], [[0, 1], [2, 3]]).points[-1].tolist()
     [1.0, 1.0]
@@ -316,6 +350,7 @@ def read_mesh(path: "Union[str, os.PathLike[str]]") -> Mesh:
     """Read a mesh of tetrahedra: .mesh, .msh, .vtu, .node, .ele or .tet, compressed with gzip or not.
 
     Of elements of second order the corners are read; `warnings` of the mesh say how far off the middle of their edges the other nodes are.
+    ValueError says what is wrong with the file; FileNotFoundError that there is none.
     """
     _need_file(path)
     return _mesh(_core.read_mesh(os.fspath(path)))

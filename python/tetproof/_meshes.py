@@ -128,7 +128,7 @@ class Mesh:
         return sides.T
 
     def region(self, which: Union[str, int]) -> "Mesh":
-        """The mesh of one region, by its name or number, with the boundary triangles at it."""
+        """The mesh of one region, by its name or number, with the boundary triangles at it. KeyError if there is none."""
         named = [number for number, name in self.region_names.items() if name == which]
         numbers = named or [number for number in np.unique(self._regions()).tolist() if number == which]
         if not numbers:
@@ -174,7 +174,7 @@ class Mesh:
         return TenNodes(np.vstack([self.points, middles]), tetrahedra, boundary)
 
     def volumes(self) -> Array:
-        """The volume of each tetrahedron, in doubles."""
+        """The volume of each tetrahedron, (n,), in the cube of the points' unit and rounded to doubles; negative if it is inverted."""
         a, b, c, d = (self.points[self.tetrahedra[:, k]] for k in range(4))
         volumes: Array = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
         return volumes

@@ -214,7 +214,7 @@ def _reasons(found: Dict[str, Any]) -> List[str]:
 
 
 def measure(mesh: Any) -> Dict[str, Any]:
-    """Counts, angles in degrees, shapes, volume and orientation of a mesh, as ``tetproof measure`` has them.
+    """Counts, angles in degrees, shapes, volume (in the points' unit) and orientation of a mesh, as ``tetproof measure`` has them.
 
     Parameters
     ----------
@@ -225,6 +225,11 @@ def measure(mesh: Any) -> Dict[str, Any]:
     -------
     dict
         Of all tetrahedra; with key "inside" the same of those inside, where the mesh tells. "inverted" and "flat" are exact.
+
+    Raises
+    ------
+    ValueError, TypeError
+        This is no mesh of tetrahedra with straight edges.
 
     >>> tetproof.measure(([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]]))["faces"]
     4
