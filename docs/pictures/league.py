@@ -8,6 +8,7 @@ league-time.*     how many percent of its models each mesher has meshed within s
 league-shape.*    tetrahedra beside those of `delmesher` on the same models, and mean gamma: medians
 """
 import csv
+import itertools
 import math
 import os
 import statistics
@@ -77,7 +78,7 @@ def draw_time(axes, runs):
 
 
 def draw_shape(axes, runs):
-    ours = runs.get(OURS, {})
+    ours, dots = runs.get(OURS, {}), []
     for mesher, rows in runs.items():
         common = [(row, ours[model]) for model, row in rows.items() if model in ours and row["disposition"] == ours[model]["disposition"] == "ok"]
         if len(common) < LEAST:
@@ -85,10 +86,22 @@ def draw_shape(axes, runs):
         weight = statistics.median(float(a["tetrahedra"]) / float(b["tetrahedra"]) for a, b in common)
         gamma = statistics.median(float(a["mean_gamma"]) for a, _ in common)
         axes.plot(weight, gamma, "o", color=ENDS["ok"] if is_ours(mesher) else ENDS["crash"], markersize=8)
-        axes.annotate(mesher, (weight, gamma), xytext=(6, 4), textcoords="offset points", fontsize="small")
+        dots.append((mesher, (weight, gamma)))
     axes.set_xscale("log")
     axes.set_xlabel(f"tetrahedra, times those of {OURS}")
     axes.set_ylabel("mean gamma (1: regular)")
+    axes.figure.canvas.draw()  # where all is now is where it stays
+    taken = [matplotlib.transforms.Bbox.from_bounds(x - 5, y - 5, 10, 10) for x, y in (axes.transData.transform(place) for _, place in dots)]
+    for mesher, place in dots:
+        for right, up in itertools.product((7, -7), (4, -11, 19, -26, 34, -41)):
+            text = axes.annotate(mesher, place, xytext=(right, up), textcoords="offset points", fontsize="small", ha="left" if right > 0 else "right",
+                                 arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": plt.rcParams["text.color"], "relpos": (0 if right > 0 else 1, 0.5)})
+            text.update_positions(axes.figure.canvas.get_renderer())
+            box = matplotlib.text.Text.get_window_extent(text)
+            if box.x0 > axes.bbox.x0 and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+                break
+            text.remove()
 
 
 def draw(drawing, runs, path, height):
