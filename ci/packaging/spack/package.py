@@ -1,6 +1,7 @@
 """A package for spack: of its repository, packages/delmesher/package.py.
 
-Tried: the commands that it leads to, by hand for all variants, with ci/machines/consumer built against the results. Not tried: spack itself.
+Tried: the arguments that it gives, with modules that stand in for spack's, and the commands that it leads to by hand for all variants, with
+ci/machines/consumer built against the results. Not tried: spack itself.
 A release adds `url`, and `sha256` to its version; until then: spack develop --path SOURCES delmesher@VERSION
 """
 from spack.package import *

@@ -1,5 +1,6 @@
 # A port for vcpkg, as it lies here an overlay: vcpkg install delmesher --overlay-ports=ci/packaging/vcpkg
-# Tried: vcpkg.json against vcpkg's schema; the commands below by hand, with ci/machines/consumer built against the result. Not tried: vcpkg itself.
+# Tried: vcpkg.json against vcpkg's schema; this file with functions that stand in for vcpkg's, and ci/machines/consumer against what the same
+# commands by hand install. Not tried: vcpkg itself.
 # A release replaces the first command by vcpkg_from_github or vcpkg_download_distfile.
 get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../../.." ABSOLUTE)
 
