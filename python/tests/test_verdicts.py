@@ -58,6 +58,8 @@ def test_an_inverted_tetrahedron(mesh):
     assert not verdict and verdict.verdict == "broken" and verdict.inverted == 2
     assert verdict.places["orientation"]["tetrahedra"].tolist() == [7, 30]
     assert any(reason.startswith("orientation: tetrahedron 7 ") for reason in verdict.reasons)
+    place = next(oracle for oracle in verdict.oracles if oracle["name"] == "orientation")["places"][0]  # as in the command's JSON
+    assert place["kind"] == "tetrahedra" and place["numbers"] == [7] and place["at"] == pytest.approx(mesh.points[tetrahedra[7]].mean(axis=0))
     corners = verdict.places["complex"]["faces"]  # both tetrahedra of each are on one side
     assert corners.shape[1] == 3 and {tuple(face) for face in corners.tolist()} <= {
         tuple(sorted(set(tet) - {corner})) for tet in tetrahedra[[7, 30]].tolist() for corner in tet}
