@@ -159,14 +159,6 @@ class ChamferChecker {
     return pieces()[piece].a == v ? pieces()[piece].b : pieces()[piece].a;
   }
 
-  // Counter-clockwise from the positive x-axis.
-  bool before(Index v, Index p, Index q) {
-    const Point &o = graph_.vertex(v), &a = graph_.vertex(p), &b = graph_.vertex(q);
-    const auto lower = [&](const Point& x) { return x.y < o.y || (x.y == o.y && x.x < o.x); };
-    if (lower(a) != lower(b)) return lower(b);
-    return points_.orient(o, a, b) > 0;
-  }
-
   void check_need() {
     // The cosine is rounded. The mesher chamfers only angles that are below the threshold by a
     // billionth, so only these must be chamfered; angles above the threshold may not be.
@@ -179,8 +171,9 @@ class ChamferChecker {
       for (const Index p : graph_.pieces_at()[v]) {
         if (rests_[p].kept) spokes.push_back(other_end(p, v));
       }
-      std::sort(spokes.begin(), spokes.end(),
-                [&](Index p, Index q) { return p != q && before(v, p, q); });
+      std::sort(spokes.begin(), spokes.end(), [&](Index p, Index q) {
+        return points_.turns_before(graph_.vertex(v), graph_.vertex(p), graph_.vertex(q));
+      });
       bool may = false, must = false;
       for (std::size_t k = 0; spokes.size() > 1 && k < spokes.size(); ++k) {
         const Index u = spokes[k], w = spokes[(k + 1) % spokes.size()];

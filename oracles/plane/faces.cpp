@@ -20,19 +20,18 @@ struct PlaneFaces::Crossing {
   }
 };
 
-PlaneFaces::PlaneFaces(PlaneGraph& graph) : graph_(graph) {
+static std::vector<PlaneSlabs::Piece> ends_of_pieces(const PlaneGraph& graph) {
+  std::vector<PlaneSlabs::Piece> result;
+  for (const auto& [a, b, segment] : graph.pieces()) result.push_back({a, b});
+  return result;
+}
+
+PlaneFaces::PlaneFaces(PlaneGraph& graph)
+    : graph_(graph), slabs_(graph.points(), ends_of_pieces(graph)) {
   sort_sides();
   trace_borders();
   join_components();
   find_inside();
-}
-
-// Counter-clockwise from the positive x-axis; both begin at one vertex.
-bool PlaneFaces::before(Index s, Index t) {
-  const Point &o = graph_.vertex(start(s)), &a = graph_.vertex(end(s)), &b = graph_.vertex(end(t));
-  const auto lower = [&](const Point& x) { return x.y < o.y || (x.y == o.y && x.x < o.x); };
-  if (lower(a) != lower(b)) return lower(b);
-  return graph_.points().orient(o, a, b) > 0;
 }
 
 void PlaneFaces::sort_sides() {
@@ -48,7 +47,10 @@ void PlaneFaces::sort_sides() {
     sides_from_[b].push_back(2 * n + 1);
   }
   for (std::vector<Index>& sides : sides_from_) {
-    std::sort(sides.begin(), sides.end(), [this](Index s, Index t) { return before(s, t); });
+    std::sort(sides.begin(), sides.end(), [this](Index s, Index t) {
+      const auto at = [&](Index v) -> const Point& { return graph_.vertex(v); };
+      return graph_.points().turns_before(at(start(s)), at(end(s)), at(end(t)));
+    });
   }
 }
 
@@ -104,55 +106,25 @@ void PlaneFaces::join_components() {
   unbounded_ = joined_.find(unbounded_);
 }
 
-std::optional<PlaneFaces::Crossing> PlaneFaces::crossing(Index piece, const Point& p) const {
+// Of a piece that the ray crosses.
+PlaneFaces::Crossing PlaneFaces::crossing(Index piece, const Point& p) const {
   const auto& [a, b, segment] = graph_.pieces()[piece];
   const Point &first = graph_.vertex(a), &last = graph_.vertex(b);
-  const bool up = first.below(p);
-  if (up == last.below(p)) return std::nullopt;
   Crossing found;
   found.slope = (last.x - first.x) / (last.y - first.y);
   found.x = first.x + (p.y - first.y) * found.slope;
-  if (found.x < p.x || (found.x == p.x && found.slope <= 0)) return std::nullopt;
-  found.left = up ? side_of_[piece] : side_of_[piece] ^ 1U;
+  found.left = first.below(p) ? side_of_[piece] : side_of_[piece] ^ 1U;
   return found;
-}
-
-// Between which numbers the piece certainly is where it is as high as the point; between any where
-// doubles overflow.
-std::pair<double, double> PlaneFaces::crossing_near(const PlaneGraph::Piece& piece,
-                                                    const Point& p) const {
-  const Point &a = graph_.vertex(piece.a), &b = graph_.vertex(piece.b);
-  const double slope = (b.dx - a.dx) / (b.dy - a.dy), x = a.dx + (p.dy - a.dy) * slope;
-  const double size = std::fabs(a.dx) + std::fabs(a.dy) + std::fabs(p.dy) + std::fabs(x);
-  const double error = 1e-12 * (1 + std::fabs(slope)) * size + 1e-300;
-  if (!std::isfinite(error)) return {-HUGE_VAL, HUGE_VAL};
-  return {x - error, x + error};
 }
 
 // The border of the face that a point is in, or that begins above a vertex: that of the first piece
 // on the ray to the right.
 PlaneFaces::Index PlaneFaces::border_right_of(const Point& p) {
-  const double off = 1e-14 * std::fabs(p.dy);
-  const PlaneBoxes::Box ray{{p.dx - 1e-14 * std::fabs(p.dx), p.dy - off}, {HUGE_VAL, p.dy + off}};
-  // The ray may meet as many as there are: all but about the nearest are left out by doubles.
-  double least = HUGE_VAL;
-  std::vector<std::pair<double, Index>> pieces;
-  graph_.near_segments(ray, [&](Index s) {
-    for (const Index piece : graph_.pieces_of()[s]) {
-      const auto& [a, b, segment] = graph_.pieces()[piece];
-      if (graph_.vertex(a).below(p) == graph_.vertex(b).below(p)) continue;
-      const auto [from, to] = crossing_near(graph_.pieces()[piece], p);
-      if (to < p.dx - 1e-14 * std::fabs(p.dx) || from > least) continue;
-      if (from > p.dx + 1e-14 * std::fabs(p.dx)) least = std::min(least, to);
-      pieces.emplace_back(from, piece);
-    }
-  });
   std::optional<Crossing> nearest;
-  for (const auto& [from, piece] : pieces) {
-    if (from > least) continue;
-    std::optional<Crossing> found = crossing(piece, p);
-    if (found && (!nearest || *found < *nearest)) nearest = std::move(found);
-  }
+  slabs_.right_of(p, [&](std::span<const Index> pieces) {
+    Crossing found = crossing(pieces.front(), p);
+    if (!nearest || found < *nearest) nearest = std::move(found);
+  });
   return nearest ? face_[nearest->left] : unbounded_;
 }
 

@@ -32,17 +32,16 @@ class PlaneFaces {
   const PlaneGraph::Piece& piece_of(Index side) const { return graph_.pieces()[side / 2]; }
   Index start(Index side) const { return side % 2 == 0 ? piece_of(side).a : piece_of(side).b; }
   Index end(Index side) const { return start(side ^ 1U); }
-  bool before(Index s, Index t);
   void sort_sides();
   void trace_borders();
   void join_components();
   void find_inside();
   std::vector<Index> outermost() const;
-  std::optional<Crossing> crossing(Index piece, const Point& p) const;
-  std::pair<double, double> crossing_near(const PlaneGraph::Piece& piece, const Point& p) const;
+  Crossing crossing(Index piece, const Point& p) const;
   Index border_right_of(const Point& p);
 
   PlaneGraph& graph_;
+  PlaneSlabs slabs_;
   // Each piece has two sides, 2 n on its left and 2 n + 1 on its right, which run from its first
   // end and from its last end. Of equal pieces only the first counts.
   std::vector<Index> side_of_;                  // per piece: the left side of the one that counts

@@ -133,16 +133,16 @@ void PlaneGraph::find_rings() {
 }
 
 bool PlaneGraph::inside_by_ray(const Point& c) {
-  bool inside = false;
-  const double below = c.dy - 1e-14 * std::fabs(c.dy), above = c.dy + 1e-14 * std::fabs(c.dy);
-  near_segments({{c.dx - 1e-14 * std::fabs(c.dx), below}, {HUGE_VAL, above}}, [&](Index s) {
-    if (!separates(s)) return;
-    const Point &a = vertex(graph_.segments[s][0]), &b = vertex(graph_.segments[s][1]);
-    const bool up = a.below(c);
-    if (up == b.below(c)) return;
-    if ((points_.orient(a, b, c) > 0) == up) inside = !inside;
-  });
-  return inside;
+  if (!separating_) {
+    std::vector<PlaneSlabs::Piece> pieces;
+    for (const auto& [a, b, segment] : pieces_) {
+      if (separates(segment)) pieces.push_back({a, b});
+    }
+    separating_.emplace(points_, std::move(pieces));
+  }
+  std::size_t crossed = 0;
+  separating_->right_of(c, [&](std::span<const Index> pieces) { crossed += pieces.size(); });
+  return crossed % 2 != 0;
 }
 
 bool PlaneGraph::on_segment(const std::array<double, 2>& at) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "mesher/delmesher_plane.h"
 #include "oracles/plane/boxes.h"
 #include "oracles/plane/points.h"
+#include "oracles/plane/slabs.h"
 
 namespace tetproof {
 
@@ -22,6 +24,8 @@ class PlaneGraph {
 
   // Segments refer to vertices of the graph.
   explicit PlaneGraph(const delmesher::PlanarGraph& graph);
+  PlaneGraph(const PlaneGraph&) = delete;
+  PlaneGraph& operator=(const PlaneGraph&) = delete;
 
   const delmesher::PlanarGraph& given() const { return graph_; }
   // The input vertices alone.
@@ -71,6 +75,7 @@ class PlaneGraph {
   PlaneBoxes segments_, vertices_;
   std::vector<Piece> pieces_;
   std::vector<std::vector<Index>> pieces_at_, pieces_of_;
+  std::optional<PlaneSlabs> separating_;  // once somebody asks
   double largest_ = 0, diagonal_ = 0;
   bool rings_ = false;
   mpq_class ring_area_ = -1;

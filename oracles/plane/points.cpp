@@ -23,6 +23,12 @@ int PlanePoints::orient(const Point& a, const Point& b, const Point& c) {
   return sgn((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
+bool PlanePoints::turns_before(const Point& o, const Point& a, const Point& b) {
+  const auto lower = [&](const Point& p) { return p.y < o.y || (p.y == o.y && p.x < o.x); };
+  if (lower(a) != lower(b)) return lower(b);
+  return orient(o, a, b) > 0;
+}
+
 int PlanePoints::in_circle(Index ia, Index ib, Index ic, Index id) {
   ++checks;
   oracles::steps += 2;

@@ -26,6 +26,9 @@ class PlanePoints {
 
   int orient(const Point& a, const Point& b, const Point& c);
   int orient(Index a, Index b, Index c) { return orient(points_[a], points_[b], points_[c]); }
+  // Does the direction from o to a come before that to b, counter-clockwise from the positive
+  // x-axis?
+  bool turns_before(const Point& o, const Point& a, const Point& b);
   // Positive if d is inside the circle of the counter-clockwise abc.
   int in_circle(Index a, Index b, Index c, Index d);
   // Is p strictly inside the disc with diameter ab?

@@ -153,8 +153,10 @@ class Promises {
 
 class Sides {
  public:
-  Sides(RecordedPlane& recorded, PlaneInside& inside)
-      : input_(recorded.input), exact_(recorded.exact), mesh_(recorded.refined), inside_(inside) {}
+  Sides(RecordedPlane& recorded, const std::vector<PieceRest>& rests, PlaneInside& inside)
+      : input_(recorded.input), exact_(recorded.exact), mesh_(recorded.refined), inside_(inside) {
+    find_missing(rests);
+  }
 
   void run(VerifyReport& report) {
     for (Index t = 0; t < mesh_.triangles().size(); ++t) {
@@ -178,14 +180,35 @@ class Sides {
     }
   }
 
+  // Where pieces between the inside and the outside are not edges of the mesh. Edges run through no
+  // triangle, as all triangles are positive and fill the rectangle.
+  void find_missing(const std::vector<PieceRest>& rests) {
+    std::vector<PlaneBoxes::Box> boxes;
+    const auto add = [&](Index p, Index from, Index to, double length) {
+      const Point &a = mesh_.point(from), &b = mesh_.point(to);
+      const double share = std::min(1.0, length / exact_.distance(from, to));
+      Point end;
+      end.dx = a.dx + share * (b.dx - a.dx);
+      end.dy = a.dy + share * (b.dy - a.dy);
+      boxes.push_back(plane_box({&a, &end}, 1e-9 * length));
+      missing_.push_back(p);
+    };
+    for (Index p = 0; p < rests.size(); ++p) {
+      const auto& [a, b, segment] = input_.pieces()[p];
+      if (!inside_.ends_at(p)) continue;
+      if (!rests[p].kept) add(p, a, b, exact_.distance(a, b));
+      if (rests[p].cut_a > 0) add(p, a, b, rests[p].cut_a);
+      if (rests[p].cut_b > 0) add(p, b, a, rests[p].cut_b);
+    }
+    boxes_ = PlaneBoxes(boxes);
+  }
+
   // Does a part of a segment run through the triangle that separates the inside from the outside?
   bool is_crossed(const Triangle& triangle) {
     bool found = false;
-    input_.near_segments(mesh_.box(triangle), [&](Index s) {
-      for (const Index p : input_.pieces_of()[s]) {
-        const PlaneGraph::Piece& piece = input_.pieces()[p];
-        found = found || (inside_.ends_at(p) && crosses(piece.a, piece.b, triangle));
-      }
+    boxes_.visit(mesh_.box(triangle), [&](Index n) {
+      const PlaneGraph::Piece& piece = input_.pieces()[missing_[n]];
+      found = found || crosses(piece.a, piece.b, triangle);
     });
     return found;
   }
@@ -217,6 +240,8 @@ class Sides {
   PlanePoints& exact_;
   const PlaneComplex& mesh_;
   PlaneInside& inside_;
+  std::vector<Index> missing_;  // pieces
+  PlaneBoxes boxes_;            // of what is missing of each of these
   OracleReport oracle_{"refined-sides", "triangles"};
 };
 
@@ -229,46 +254,54 @@ class Wedges {
       : recorded_(recorded), exact_(recorded.exact), inside_(inside) {}
 
   bool any_inside(Index v, Index from, Index to) {
-    if (recorded_.promise.approximate) return any_by_probes(v, from, to);
-    const PlaneComplex& final = recorded_.final;
-    for (const Index t : final.at(v)) {
-      const Triangle& triangle = final.triangles()[t];
-      if (triangle.side == Side::inside && between(v, from, to, final.centroid(triangle))) {
-        return true;
-      }
-    }
-    return false;
+    if (v != vertex_) turn_to(v);
+    auto next = std::upper_bound(
+        inside_from_.begin(), inside_from_.end(), point(from),
+        [&](const Point& p, const Point& q) { return exact_.turns_before(point(v), p, q); });
+    if (next == inside_from_.end()) next = inside_from_.begin();
+    return next != inside_from_.end() && exact_.orient(point(v), point(from), *next) > 0 &&
+           exact_.orient(point(v), *next, point(to)) > 0;
   }
 
  private:
-  bool between(Index v, Index from, Index to, const Point& p) {
-    return exact_.orient(point(v), point(from), p) > 0 && exact_.orient(point(v), p, point(to)) > 0;
-  }
   const Point& point(Index v) const { return recorded_.points()[v]; }
 
-  // Without a final mesh: tries a point close to the vertex between every two neighbouring pieces.
-  bool any_by_probes(Index v, Index from, Index to) {
-    const std::vector<Index> ends = ends_between(v, from, to);
-    double near = HUGE_VAL;
-    for (const Index end : ends) near = std::min(near, exact_.distance(v, end));
-    near = std::min(near, recorded_.input.feature_size(v, near)) / 8;
-    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-      if (inside_.contains(probe(v, ends[k], ends[k + 1], near))) return true;
+  void turn_to(Index v) {
+    vertex_ = v;
+    inside_from_.clear();
+    if (recorded_.promise.approximate) {
+      probe_around(v);
+    } else {
+      for (const Index t : recorded_.final.at(v)) {
+        const Triangle& triangle = recorded_.final.triangles()[t];
+        if (triangle.side == Side::inside) {
+          inside_from_.push_back(recorded_.final.centroid(triangle));
+        }
+      }
     }
-    return false;
+    std::sort(inside_from_.begin(), inside_from_.end(),
+              [&](const Point& p, const Point& q) { return exact_.turns_before(point(v), p, q); });
   }
 
-  // The other ends of the pieces at the vertex from one direction to the other, in this order.
-  std::vector<Index> ends_between(Index v, Index from, Index to) {
+  // Without a final mesh: tries a point close to the vertex between every two neighbouring pieces
+  // that are less than half a turn apart.
+  void probe_around(Index v) {
     std::vector<Index> ends;
+    double near = HUGE_VAL;
     for (const Index p : recorded_.input.pieces_at()[v]) {
       const auto& piece = recorded_.input.pieces()[p];
-      const Index end = piece.a == v ? piece.b : piece.a;
-      if (end == from || end == to || between(v, from, to, point(end))) ends.push_back(end);
+      ends.push_back(piece.a == v ? piece.b : piece.a);
+      near = std::min(near, exact_.distance(v, ends.back()));
     }
+    near = std::min(near, recorded_.input.feature_size(v, near)) / 8;
     std::sort(ends.begin(), ends.end(),
-              [&](Index p, Index q) { return exact_.orient(point(v), point(p), point(q)) > 0; });
-    return ends;
+              [&](Index p, Index q) { return exact_.turns_before(point(v), point(p), point(q)); });
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const Index first = ends[k], second = ends[(k + 1) % ends.size()];
+      if (exact_.orient(v, first, second) <= 0) continue;
+      Point p = probe(v, first, second, near);
+      if (inside_.contains(p)) inside_from_.push_back(std::move(p));
+    }
   }
 
   // The vertex, moved by `distance` in each of the two directions.
@@ -290,6 +323,8 @@ class Wedges {
   RecordedPlane& recorded_;
   PlanePoints& exact_;
   PlaneInside& inside_;
+  Index vertex_ = PlaneComplex::kNone;
+  std::vector<Point> inside_from_;  // the vertex, counter-clockwise: a point in each wedge inside
 };
 
 }  // namespace
@@ -298,7 +333,7 @@ void check_plane_refined(RecordedPlane& recorded, VerifyReport& report) {
   const std::vector<PieceRest> rests = check_segments(recorded, report);
   Promises(recorded).run(report);
   PlaneInside inside(recorded.input);
-  Sides(recorded, inside).run(report);
+  Sides(recorded, rests, inside).run(report);
   Wedges wedges(recorded, inside);
   check_plane_chamfers(
       recorded.input, recorded.record, rests,

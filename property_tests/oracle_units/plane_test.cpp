@@ -16,6 +16,8 @@
 #include "oracles/plane/file.h"
 #include "oracles/plane/graph.h"
 #include "oracles/plane/points.h"
+#include "oracles/plane/slabs.h"
+#include "oracles/plane/verify.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {
@@ -292,6 +294,125 @@ TEST(PlaneFaces, OfRingsAreThoseOfParity) {
       if (graph.on_segment({x, y})) continue;
       EXPECT_EQ(faces.inside({x, y, x, y}), graph.inside_by_ray({x, y, x, y})) << x << " " << y;
     }
+  }
+}
+
+// The pieces that a ray crosses, one by one: those that it has at its height, and to its right.
+TEST(PlaneSlabs, KnowWhatARayCrosses) {
+  std::mt19937 random(7);
+  const auto coordinate = [&] { return static_cast<int>(random() % 9) - 4; };
+  std::size_t crossed = 0;
+  for (int round = 0; round < 300; ++round) {
+    PlanePoints points;
+    std::vector<std::array<int, 2>> places;
+    for (int n = 0; n < 12; ++n) {
+      places.push_back({coordinate(), coordinate()});
+      const auto [x, y] = places.back();
+      points.add({x, y, static_cast<double>(x), static_cast<double>(y)});
+    }
+    // Spokes of one hub, then any pieces, which cross and are level or equal as well.
+    std::vector<PlaneSlabs::Piece> pieces;
+    for (std::uint32_t n = 1; n < 12; ++n) {
+      const auto other = round % 2 == 0 ? 0 : static_cast<std::uint32_t>(random() % 12);
+      if (places[other] != places[n]) pieces.push_back({n, other});
+    }
+    PlaneSlabs slabs(points, pieces);
+    for (int x = -9; x <= 9; ++x) {
+      for (int y = -9; y <= 9; ++y) {  // halves
+        std::vector<std::uint32_t> found, wanted;
+        const auto at = [](int half) { return mpq_class(half, 2); };
+        slabs.right_of({at(x), at(y), x / 2.0, y / 2.0}, [&](std::span<const std::uint32_t> some) {
+          found.insert(found.end(), some.begin(), some.end());
+        });
+        for (std::uint32_t n = 0; n < pieces.size(); ++n) {
+          auto a = places[pieces[n].a], b = places[pieces[n].b];
+          if (b[1] < a[1]) std::swap(a, b);
+          if (2 * a[1] > y || 2 * b[1] <= y) continue;
+          // A little above y, by as little as the determinant of doubled coordinates tells.
+          const int rise = b[1] - a[1],
+                    side = (b[0] - a[0]) * (y - 2 * a[1]) - (x - 2 * a[0]) * rise;
+          if (side > 0 || (side == 0 && b[0] > a[0])) wanted.push_back(n);
+        }
+        std::ranges::sort(found);
+        crossed += wanted.size();
+        EXPECT_EQ(found, wanted) << round << ": " << x << " " << y;
+      }
+    }
+  }
+  EXPECT_GT(crossed, 10000U);
+}
+
+// A triangulation of n wedges around one vertex, or of n teeth of a comb, as planar graph and file.
+std::pair<delmesher::PlanarGraph, PlaneFile> wedges(std::uint32_t n) {
+  delmesher::PlanarGraph graph;
+  PlaneFile file;
+  graph.vertices = {{0, 0}};
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double angle = 2 * 3.14159265358979 * k / n;
+    graph.vertices.push_back({std::cos(angle), std::sin(angle)});
+    graph.segments.push_back({0, k + 1});
+    graph.segments.push_back({k + 1, (k + 1) % n + 1});
+    file.triangles.push_back({0, k + 1, (k + 1) % n + 1});
+  }
+  file.vertices = graph.vertices;
+  return {graph, file};
+}
+
+std::pair<delmesher::PlanarGraph, PlaneFile> comb(std::uint32_t n) {
+  delmesher::PlanarGraph graph;
+  PlaneFile file;
+  graph.vertices = {{0, -1}};
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double x = 2.0 * k;
+    const std::uint32_t left = 3 * k + 1, tip = left + 1, right = left + 2, next = left + 3;
+    for (const auto& p : {std::array{x, 0.0}, std::array{x + 0.5, 1.0}, std::array{x + 1, 0.0}}) {
+      graph.vertices.push_back(p);
+    }
+    for (const std::uint32_t v : {left, tip, right}) graph.segments.push_back({v, v + 1});
+    file.triangles.push_back({left, right, tip});
+    file.triangles.push_back({0, right, left});
+    file.triangles.push_back({0, next, right});
+  }
+  graph.vertices.push_back({2.0 * n, 0});
+  graph.segments.push_back({3 * n + 1, 0});
+  graph.segments.push_back({0, 1});
+  file.vertices = graph.vertices;
+  return {graph, file};
+}
+
+// Twice as many wedges or teeth are verified in twice as many steps, but for a logarithm.
+TEST(PlaneCost, GrowsWithTheNumberOfSpokesAndTeeth) {
+  for (const auto& make : {wedges, comb}) {
+    double before = 0;
+    for (const std::uint32_t n : {500U, 1000U, 2000U}) {
+      const auto& [graph, file] = make(n);
+      oracles::VerifyReport report;
+      const std::uint64_t begun = oracles::steps;
+      EXPECT_EQ(verify_plane(graph, file, nullptr, {}, report), "");
+      EXPECT_EQ(report.verdict, Verdict::exact);
+      const auto taken = static_cast<double>(oracles::steps - begun);
+      EXPECT_TRUE(before == 0 || taken < 2.4 * before) << n << ": " << before << " " << taken;
+      before = taken;
+    }
+  }
+}
+
+// The same of refined meshes with records, per triangle.
+TEST(PlaneCost, GrowsWithTheSizeOfTheRecord) {
+  double before = 0;
+  for (const std::uint32_t n : {100U, 200U, 400U}) {
+    const delmesher::PlanarGraph graph = wedges(n).first;
+    delmesher::PlaneOptions options;
+    options.want_exact = true;
+    const delmesher::PlaneResult result = triangulate_polygon(graph, options);
+    const std::uint64_t begun = oracles::steps;
+    const PlaneVerdict verdict = verify_plane(graph, options, result);
+    EXPECT_TRUE(verdict.ok()) << verdict.text();
+    const double taken = static_cast<double>(oracles::steps - begun) /
+                         static_cast<double>(result.mesh.triangles.size());
+    std::cerr << n << " " << taken << "\n";
+    EXPECT_TRUE(before == 0 || taken < 1.1 * before) << n << ": " << before << " " << taken;
+    before = taken;
   }
 }
 
