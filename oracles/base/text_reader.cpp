@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <limits>
 #include <new>
+#include <optional>
 
 #include "oracles/base/steps.h"
 
@@ -21,6 +22,13 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 18;
 constexpr std::size_t kLongestWord = std::size_t{1} << 20;
 constexpr std::string_view kGzip = ".gz";
+constexpr std::uint64_t kTimesUnpacked = 64;
+
+// Bytes that a file of that many may unpack to.
+std::uint64_t most_unpacked(std::uint64_t packed) {
+  constexpr std::uint64_t kAnyway = std::uint64_t{1} << 26;
+  return kAnyway + kTimesUnpacked * packed;
+}
 
 // The beginning of a word, for a message of one line that a terminal can show.
 std::string quoted(std::string_view word) {
@@ -55,6 +63,9 @@ class FileStream {
       : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
     if (file_ == nullptr && errno == ENOMEM) throw std::bad_alloc();
     if (file_ == nullptr) throw ReadError(path + ": cannot be opened");
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    if (!unknown) size_ = size;
     packed_.resize(kPiece);
     inflater_.next_in = packed_.data();
     fetch();
@@ -75,16 +86,17 @@ class FileStream {
     inflater_.avail_out = static_cast<uInt>(size);
     while (inflater_.avail_out > 0 && (plain_ ? copy() : unpack())) {
     }
-    return size - inflater_.avail_out;
+    const std::size_t got = size - inflater_.avail_out;
+    given_ += got;
+    if (!plain_ && size_) check_unpacked(path_, *size_, given_);
+    return got;
   }
 
   bool is_plain() const { return plain_; }
-  // As many bytes as there are in all, or more. DEFLATE makes a file 1032 times smaller at most.
-  std::uint64_t most_bytes() const {
-    std::error_code unknown;  // set if it is not a regular file
-    const std::uintmax_t size = std::filesystem::file_size(path_, unknown);
-    if (unknown) return std::numeric_limits<std::uint64_t>::max();
-    return is_plain() ? size : 1032 * size;
+  // As many bytes as there are in all, or more; not known of what is not a regular file.
+  std::optional<std::uint64_t> most_bytes() const {
+    if (!size_ || plain_) return size_;
+    return most_unpacked(*size_);
   }
 
  private:
@@ -133,6 +145,8 @@ class FileStream {
 
   std::string path_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::optional<std::uint64_t> size_;
+  std::uint64_t given_ = 0;  // bytes so far
   std::vector<Bytef> packed_;
   z_stream inflater_{};  // of a plain file only its places are used
   bool plain_ = true;
@@ -144,25 +158,21 @@ class FileStream {
 std::string read_whole_file(const std::string& path) {
   FileStream stream(path);
   std::string contents;
-  std::error_code unknown;  // set if it is not a regular file
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  if (!unknown && stream.is_plain()) contents.reserve(size + kPiece);
+  if (stream.is_plain()) contents.reserve(stream.most_bytes().value_or(0) + kPiece);
   for (std::size_t got = kPiece; got == kPiece;) {
     const std::size_t before = contents.size();
     contents.resize(before + kPiece);
     got = stream.read(contents.data() + before, kPiece);
     contents.resize(before + got);
-    if (!unknown && !stream.is_plain()) check_unpacked(path, size, contents.size());
   }
   if (contents.empty()) throw ReadError(path + ": cannot be read, or is empty");
   return contents;
 }
 
 void check_unpacked(const std::string& what, std::uint64_t packed, std::uint64_t unpacked) {
-  constexpr std::uint64_t kTimes = 64, kAnyway = std::uint64_t{1} << 26;
-  if (unpacked > kAnyway && (unpacked - kAnyway) / kTimes > packed) {
-    throw ReadError(what + ": unpacks to more than " + std::to_string(kTimes) + " times its size");
-  }
+  if (unpacked <= most_unpacked(packed)) return;
+  throw ReadError(what + ": unpacks to more than " + std::to_string(kTimesUnpacked) +
+                  " times its size");
 }
 
 std::string without_gz(const std::string& path) {
@@ -192,7 +202,8 @@ TextReader::~TextReader() = default;
 TextReader TextReader::of_file(const std::string& path, char comment) {
   TextReader reader(path, {}, comment);
   reader.source_ = std::make_unique<Source>(path);
-  reader.size_ = reader.source_->stream.most_bytes();
+  reader.size_ =
+      reader.source_->stream.most_bytes().value_or(std::numeric_limits<std::uint64_t>::max());
   if (!reader.refill()) throw ReadError(path + ": cannot be read, or is empty");
   return reader;
 }

@@ -30,8 +30,8 @@ BoundaryEdges::Range BoundaryEdges::between(Index a, Index b) const {
   const auto begin = edges_.begin() + first_[a], end = edges_.begin() + first_[a + 1];
   const auto first =
       std::lower_bound(begin, end, b, [](const Edge& edge, Index to) { return edge.to < to; });
-  auto last = first;
-  while (last != end && last->to == b) ++last;
+  const auto last =
+      std::upper_bound(first, end, b, [](Index to, const Edge& edge) { return to < edge.to; });
   return {static_cast<std::size_t>(first - edges_.begin()),
           static_cast<std::size_t>(last - edges_.begin())};
 }
