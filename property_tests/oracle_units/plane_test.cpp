@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
 #include <utility>
@@ -267,6 +268,78 @@ TEST(PlaneFaces, SeparateWhereASideIsInside) {
   EXPECT_EQ(separating, "ssss--------ssss");
 }
 
+// Each oracle says how much it has looked at: all that it is about, by plain counts and by Euler's
+// formula, of a triangulated rectangle, for edges.
+TEST(PlaneCounts, AreThoseOfTheRecord) {
+  delmesher::PlanarGraph graph = squares();
+  graph.insideness = delmesher::Insideness::enclosed;
+  graph.holes = {{0, 0}};
+  graph.vertices.push_back({6, 0});  // a wing, acute beside the square
+  graph.segments.push_back({1, 16});
+  graph.segments.push_back({16, 2});
+  for (const bool hull : {false, true}) {
+    delmesher::PlaneOptions options;
+    options.want_exact = true;
+    if (hull) options.region = delmesher::Region::hull;
+    const delmesher::PlaneResult result = triangulate_polygon(graph, options);
+    const PlaneVerdict verdict = verify_plane(graph, options, result);
+    ASSERT_TRUE(verdict.ok()) << verdict.text();
+    const delmesher::PlaneRecord& record = result.exact;
+    EXPECT_EQ(record.corners.size(), 2U);
+    const auto on_segments = [](const auto& edges) {
+      return static_cast<std::size_t>(
+          std::ranges::count_if(edges, [](const auto& e) { return e.segment != 0xffffffffU; }));
+    };
+    // Each edge is a side of two triangles, but for those of the rectangle; listed ones are left
+    // out.
+    const auto free = [&](const auto& triangles, const auto& edges) {
+      return (3 * triangles.size() + edges.size() - on_segments(edges)) / 2 - edges.size();
+    };
+    const std::size_t vertices = graph.vertices.size(), pieces = graph.segments.size(),
+                      triangles = result.mesh.triangles.size(), refined = record.refined.size(),
+                      final = record.final.size(), edges = on_segments(record.final_edges),
+                      inside =
+                          refined - static_cast<std::size_t>(
+                                        std::ranges::count_if(record.refined, [](const auto&t) {
+                                          return t.side == delmesher::PlaneRecord::Side::outside;
+                                        }));
+    const std::map<std::string, std::size_t> wanted = {
+        {"complex", triangles},
+        {"orientation", triangles},
+        {"conformity", pieces + vertices + 3 * triangles + (hull ? 1 : 0)},
+        {"sides", triangles + edges + graph.holes.size()},
+        {"edge-list", 2 * edges},
+        {"angles", triangles},
+        {"refined-complex", refined + record.refined_edges.size()},
+        {"refined-orientation", refined},
+        {"refined-delaunay", free(record.refined, record.refined_edges)},
+        {"exact-complex", final + record.final_edges.size()},
+        {"exact-orientation", final},
+        {"exact-delaunay", free(record.final, record.final_edges)},
+        {"exact-conformity", edges},
+        {"exact-sides", final},
+        {"enrichment", record.points.size()},
+        {"refined-segments", pieces + on_segments(record.refined_edges)},
+        {"refined-angles", hull ? refined : inside},
+        {"refined-encroachment", hull ? refined : inside},
+        {"refined-sides", refined},
+        {"refined-chamfer-distance", vertices + record.corners.size()},
+        {"refined-chamfer-need", vertices},
+        {"refined-chamfer-cuts", 3 * pieces},
+        {"refined-drops", pieces},
+        {"same-mesh", triangles + edges},
+        {"rounding", record.mesh_vertices.size()}};
+    std::size_t compared = 0;
+    for (const OracleReport& oracle : verdict.report.oracles) {
+      const auto found = wanted.find(oracle.name);
+      if (found == wanted.end()) continue;
+      ++compared;
+      EXPECT_EQ(oracle.checked, found->second) << oracle.name << (hull ? " hull" : "");
+    }
+    EXPECT_EQ(compared, wanted.size());
+  }
+}
+
 // Parity says the same of rings, at points level with vertices as well.
 TEST(PlaneFaces, OfRingsAreThoseOfParity) {
   std::mt19937 random(3);
@@ -410,7 +483,6 @@ TEST(PlaneCost, GrowsWithTheSizeOfTheRecord) {
     EXPECT_TRUE(verdict.ok()) << verdict.text();
     const double taken = static_cast<double>(oracles::steps - begun) /
                          static_cast<double>(result.mesh.triangles.size());
-    std::cerr << n << " " << taken << "\n";
     EXPECT_TRUE(before == 0 || taken < 1.1 * before) << n << ": " << before << " " << taken;
     before = taken;
   }
