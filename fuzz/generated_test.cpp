@@ -237,6 +237,7 @@ TEST(Regressions, ThinWallsEnd) {
     const Surface surface = *generate(*find_family("cavities"), 1, member);
     delmesher::Options options;
     options.surface = delmesher::SurfaceChoice::split;
+    options.size = 0;
     options.max_vertices = 10000;
     const auto result = delmesher::tetrahedralize(surface, options);
     EXPECT_TRUE(result.status.ok()) << member << ": " << result.status.message;

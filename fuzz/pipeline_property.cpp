@@ -31,6 +31,7 @@ Leniency inexact_repairs("file-of-inexact-repairs-below-8-ulp", 0.01);
 Leniency left_by_rounding("not-positive-as-written-below-8-ulp", 0.01);
 Leniency left_on_surface("vertices-left-on-a-kept-surface", 0.05);
 Leniency explained_by_place("bad-tetrahedra-explained-by-place", 0.01);
+Leniency explained_with_size("bad-tetrahedra-explained-by-place-with-default-size", 0.2);
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -92,7 +93,9 @@ Finding verified(const Surface& surface, const Result& result, Stage stage,
       oracles::verify(as_polyhedron(surface), as_file(result.mesh), &result.exact, wanted, report);
   if (!refusal.empty()) return "oracles refuse: " + refusal;
   if (const oracles::OracleReport* improvement = report.find("improvement")) {
-    if (improvement->figure(oracles::kByPlace)) explained_by_place.take();
+    if (improvement->figure(oracles::kByPlace)) {
+      (result.statistics.default_size > 0 ? explained_with_size : explained_by_place).take();
+    }
   }
   bool violated = false;
   for (const auto& oracle : report.oracles) violated = violated || oracle.violations > 0;
@@ -240,6 +243,7 @@ Options options_for(const Surface& surface) {
   options.simplify_bridges = (hash & 96) != 0;
   options.gabriel = (hash >> 16) % 2 == 0;
   options.improve = (hash >> 19) % 4 != 0;
+  if ((hash >> 24) % 4 != 0) options.size = 0;
   constexpr double kPlanar[] = {delmesher::kPlanarAuto, delmesher::kPlanarAuto, 0, 1e-4};
   options.planar = kPlanar[(hash >> 17) % 4];
   if ((hash >> 7) % 8 == 0) options.max_edge = size / 4;
@@ -317,7 +321,7 @@ Finding refinement_holds(const Surface& surface) {
 Finding pipeline_holds(const Surface& surface) {
   judging({&too_many_vertices, &less_planar, &too_precise, &nothing_refined, &too_large_to_scale,
            &out_of_range, &within_roundings, &inexact_repairs, &left_by_rounding,
-           &explained_by_place});
+           &explained_by_place, &explained_with_size});
   Options options = options_for(surface);
   const Result result = meshed(surface, options);
   if (Finding f = judged(surface, result, oracles::promise_of(options)); !f.empty()) return f;
@@ -356,7 +360,7 @@ Finding whole_pipeline_holds(const Surface& surface, const Options& options, boo
 
 // A surface that the defaults keep is split as well.
 Finding default_pipeline_holds(const Surface& surface) {
-  judging({&nothing_refined});
+  judging({&nothing_refined, &explained_with_size});
   Options options;
   options.want_exact = true;
   bool kept = false;

@@ -1,5 +1,6 @@
 // The order of the stages: Algorithm 2 of the paper, and the policies that repeat parts of it.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -23,6 +24,7 @@
 #include "mesher/planar/planar.h"
 #include "mesher/policies/as_given.h"
 #include "mesher/policies/budget.h"
+#include "mesher/policies/default_size.h"
 #include "mesher/policies/fallback.h"
 #include "mesher/policies/plain.h"
 #include "mesher/policies/planar_runs.h"
@@ -615,9 +617,7 @@ constexpr Step<Runs> kRuns[] = {
      [](Runs& r) { r.run_again(Planes::none); }},
 };
 
-Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
-  Options options = given;
-  options.surface = surface_choice(given);
+Result best_of_runs(const Surface& surface, const Options& options, const LocalFrame& frame) {
   Runs runs{{surface}, frame, PlanarRuns(options), {}};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
@@ -625,6 +625,68 @@ Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& 
   climb(runs, kRuns, taken);
   runs.best.statistics.ladder += taken;
   return std::move(runs.best);
+}
+
+// Once more, with a size, if the mesh is too coarse without.
+struct Sizing {
+  using Clock = std::chrono::steady_clock;
+
+  const Surface& surface;
+  const LocalFrame& frame;
+  Options options;
+  const Clock::time_point start = Clock::now();
+  const bool may_choose = may_choose_size(options);
+  Result best{};
+  DefaultSize chosen{};
+
+  bool good_enough() const { return chosen.size == 0; }
+
+  void attempt() {
+    best = best_of_runs(surface, options, frame);
+    if (may_choose && best.status.ok()) chosen = default_size(best);
+  }
+  void take_size() {
+    const std::uint64_t asked = options.max_vertices;
+    const bool bounded = asked == 0 || chosen.most_vertices < asked;
+    options.max_edge = kMostOfSize * chosen.size;
+    options.max_vertices = bounded ? chosen.most_vertices : asked;
+    options.time_limit_seconds = seconds_left();
+    Result sized = best_of_runs(surface, options, frame);
+    const Limit limit = sized.status.limit;
+    std::string why = sized.status.ok() ? why_not(sized, best) : sized.status.message;
+    const bool given_up = sized.status.ok()
+                              ? !why.empty()
+                              : limit == Limit::precision || (limit == Limit::size && bounded);
+    if (limit == Limit::size && bounded) {
+      why = "more than " + std::to_string(chosen.most_vertices) + " vertices";
+    }
+    if (given_up) {
+      best.warnings.push_back("coarse for a solver, but with a size: " + why);
+      return;
+    }
+    sized.statistics.default_size = chosen.size;
+    sized.statistics.tetrahedra_without_size = best.mesh.tetrahedra.size();
+    best = std::move(sized);
+  }
+  double seconds_left() const {
+    if (options.time_limit_seconds == 0) return 0;
+    const std::chrono::duration<double> spent = Clock::now() - start;
+    return std::max(options.time_limit_seconds - spent.count(), 1e-9);
+  }
+};
+
+constexpr Step<Sizing> kSizing[] = {
+    {Rung::default_size, [](const Sizing&) { return true; }, [](Sizing& s) { s.take_size(); }},
+};
+
+Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
+  Sizing sizing{surface, frame, given};
+  sizing.options.surface = surface_choice(given);
+  sizing.attempt();
+  RungCounts taken;
+  climb(sizing, kSizing, taken);
+  sizing.best.statistics.ladder += taken;
+  return std::move(sizing.best);
 }
 
 Result run_plain_cdt(const Surface& surface, const Options& options, const LocalFrame& frame) {

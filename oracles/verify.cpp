@@ -197,10 +197,12 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
     with_points->vertices.insert(with_points->vertices.end(), points.begin(), points.end());
     frame.input = &*with_points;
   }
-  const bool may_keep = frame.options.promised.may_keep;
+  Promise& promised = frame.options.promised;
+  const bool may_keep = promised.may_keep;
+  promised.allow_sizes(diagonal_of(*frame.input));
   const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped
-  if (exact != nullptr) frame.options.promised.settle(*exact);
-  if (frame.options.promised.keep && frame.options.stage == Stage::both) {
+  if (exact != nullptr) promised.settle(*exact);
+  if (promised.keep && frame.options.stage == Stage::both) {
     frame.options.stage = Stage::final;
   }
   report = {};

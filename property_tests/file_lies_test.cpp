@@ -155,7 +155,7 @@ const Meshed& of_names() {
       "endfacet\nendsolid\nsolid out  let\nfacet normal 0 0 0\nouter loop\nvertex 1 0 0\n"
       "vertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nfacet normal 0 0 0\nouter loop\n"
       "vertex 0 1 0\nvertex 0 0 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid\n",
-      "mesh --ascii", {{"msh"}, {"vtu"}});
+      "mesh --size none --ascii", {{"msh"}, {"vtu"}});
   return meshed;
 }
 
@@ -655,7 +655,7 @@ TEST(FileLies, LabelsByAngle) {
       "box.off",
       "OFF\n8 6 0\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 1\n4 0 1\n4 4 1\n0 4 1\n4 0 3 2 1\n"
       "4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n",
-      "mesh --label-by-angle 30 --ascii", {{"mesh"}, {"msh"}, {"vtu"}});
+      "mesh --size none --label-by-angle 30 --ascii", {{"mesh"}, {"msh"}, {"vtu"}});
   const std::map<std::string, std::array<const char*, 2>> lies = {
       {"mesh", {"Triangles\n(\\d+)\n(\\d+ \\d+ \\d+) \\d+\n", "Triangles\n$1\n$2 7\n"}},
       {"msh", {"\n2 3 \"face_3\"", "\n2 3 \"face_4\""}},

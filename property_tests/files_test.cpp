@@ -254,8 +254,8 @@ TEST_F(Files, AModelThatIsThereTwiceIsRefused) {
 
 TEST_F(Files, WhatSaysNothingIsRefused) {
   write_off("in.off", samples::l_shape().input);
-  ASSERT_EQ(run("mesh -q --ascii " + path("in.off") + " -o " + path("out.mesh") + " -o " +
-                path("out.vtu") + " --exact " + path("out.exact")),
+  ASSERT_EQ(run("mesh -q --size none --ascii " + path("in.off") + " -o " + path("out.mesh") +
+                " -o " + path("out.vtu") + " --exact " + path("out.exact")),
             0);
   const auto verified = [&](const std::string& mesh, const std::string& exact) {
     return verify({path("in.off"), path(mesh), "--exact", path(exact)});

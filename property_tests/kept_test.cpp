@@ -232,6 +232,7 @@ Surface plate() {
 
 Options automatic() {
   Options options;
+  options.size = 0;
   options.want_exact = true;
   return options;
 }

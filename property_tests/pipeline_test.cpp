@@ -189,7 +189,7 @@ TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
         {}}}};
   for (const NamedSurface& model : models) {
     expect_right(model, default_options());
-    const Result result = delmesher::tetrahedralize(model.surface);
+    const Result result = delmesher::tetrahedralize(model.surface, samples::split_surface());
     EXPECT_EQ(result.mesh.tetrahedra.size(), model.surface.triangles.size() / 3) << model.name;
     EXPECT_FALSE(result.statistics.enriched);
     // But they are refined where other sizes or the surroundings are asked for.
@@ -500,7 +500,7 @@ TEST(Precision, RepairsOfManyTetrahedraWaitUntilPointsAreTakenOut) {
                        {4, 9, 6},    {11, 12, 13}, {4, 6, 5},   {1, 8, 0},   {3, 8, 1},
                        {7, 9, 4},    {6, 9, 7},    {7, 10, 6},  {4, 10, 7},  {10, 4, 12},
                        {10, 12, 11}, {4, 5, 13},   {4, 13, 12}, {5, 10, 11}, {5, 11, 13}};
-  const Result result = delmesher::tetrahedralize(surface, {});
+  const Result result = delmesher::tetrahedralize(surface, samples::split_surface());
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(result.statistics.rounding_inverted + result.statistics.rounding_flat, 0U);
   EXPECT_LT(result.statistics.rounding_signs, 100000U);

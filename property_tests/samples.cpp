@@ -323,6 +323,7 @@ delmesher::Surface finned_cube(double length, double h) {
 delmesher::Options split_surface() {
   delmesher::Options options;
   options.surface = delmesher::SurfaceChoice::split;
+  options.size = 0;
   return options;
 }
 

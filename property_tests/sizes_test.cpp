@@ -136,7 +136,7 @@ TEST(Sizes, TheSmallerBoundCounts) {
 }
 
 TEST(Sizes, ASizeThatIsNoneIsRejected) {
-  for (const double size : {-1.0, std::nan("")}) {
+  for (const double size : {-2.0, std::nan("")}) {
     Options options;
     options.size = size;
     const Result result = delmesher::tetrahedralize(box({1, 1, 1}), options);

@@ -81,19 +81,23 @@ INSTANTIATE_TEST_SUITE_P(Program, BadFiles, testing::ValuesIn(kBadFiles),
 // Kuhn's six tetrahedra along a diagonal of the cube: r = 1/2 / (1 + sqrt 2), R = sqrt 3 / 2.
 TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   write("in.off", cube());
-  EXPECT_EQ(run("in.off -o mesh.mesh"), 0);
+  EXPECT_EQ(run("in.off -o mesh.mesh --size none"), 0);
   EXPECT_EQ(text("out.txt"), "");
   EXPECT_TRUE(text("err.txt").starts_with("mesh.mesh: 8 vertices, 6 tetrahedra in "));
   EXPECT_TRUE(text("err.txt").ends_with(
       " s; dihedral angles 45.00 to 90.00 degrees, 0 tetrahedra below 5, the smallest at (0, 0, "
-      "0.5); smallest face angle 35.26; mean shape 0.72 (1 is regular); coarse for a solver: "
-      "--size 0.17 makes about 1900\n"))
+      "0.5); smallest face angle 35.26; mean shape 0.72 (1 is regular)\n"))
       << text("err.txt");
   EXPECT_GT(text("mesh.mesh").size(), 100U);
   EXPECT_EQ(run("in.off -o mesh.mesh -q"), 0);
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");
+  EXPECT_EQ(run("in.off -o mesh.mesh"), 0);
+  EXPECT_TRUE(
+      text("err.txt").ends_with("; edges of 0.17 by default, because there are only 6 "
+                                "tetrahedra with --size none\n"))
+      << text("err.txt");
   EXPECT_EQ(run("in.off -o mesh.mesh --size 0.17"), 0);
-  EXPECT_EQ(text("err.txt").find("coarse"), std::string::npos) << text("err.txt");
+  EXPECT_EQ(text("err.txt").find("default"), std::string::npos) << text("err.txt");
 }
 
 TEST_F(Program, WallsAreSplitInEveryFormat) {
@@ -162,7 +166,7 @@ TEST_F(Program, AnglesThatTheInputForcesAreSaid) {
   write("in.off",
         "OFF\n6 8 0\n0 0 0\n1 0 0\n1 0.0174550649 0\n0 0 1\n1 0 1\n1 0.0174550649 1\n"
         "3 0 2 1\n3 3 4 5\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n");
-  EXPECT_EQ(run("in.off -o mesh.mesh -v"), 0);
+  EXPECT_EQ(run("in.off -o mesh.mesh -v --size none"), 0);
   EXPECT_NE(text("err.txt").find("in.off: the surface is kept; bounded angles"), std::string::npos);
   EXPECT_EQ(run("in.off -o mesh.mesh --surface split"), 0);
   const std::string said = text("err.txt");
@@ -392,7 +396,7 @@ TEST_F(Program, AnyNumberOfThreadsWritesTheSameBytes) {
 TEST_F(Program, SizesStandInAFile) {
   write("in.off", cube());
   write("in.sizes", "0 0 0 0.05\n");
-  ASSERT_EQ(run("mesh in.off -q -o coarse.tet"), 0);
+  ASSERT_EQ(run("mesh in.off -q -o coarse.tet --size none"), 0);
   ASSERT_EQ(run("mesh in.off -q -o fine.tet --size-field in.sizes"), 0) << text("err.txt");
   EXPECT_GT(text("fine.tet").size(), 10 * text("coarse.tet").size());
   write("in.sizes", "0 0 0 0.05\n0 0 1 -1\n");

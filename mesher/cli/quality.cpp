@@ -218,31 +218,10 @@ std::string quality_text(const Result& result) {
          "; mean shape " + number(s.mean_gamma, 2) + " (1 is regular)";
 }
 
-std::string coarseness_text(const Result& result, const Options& options,
-                            const std::vector<SizeSource>& sizes) {
-  const TetMesh& mesh = result.mesh;
-  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
-  const double size = result.statistics.bbox_diagonal / 10;
-  const bool bounded =
-      bound_on_edges(options) > 0 || !sizes.empty() || !options.region_sizes.empty();
-  if (bounded || size == 0) return "";
-  double sixth = 0, half = 0;  // of which volume and area are that part
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    sixth += std::fabs(
-        dot(subtract(at(b), at(a)), cross(subtract(at(c), at(a)), subtract(at(d), at(a)))));
-  }
-  for (const auto& [a, b, c] : mesh.boundary)
-    half += norm(cross(subtract(at(b), at(a)), subtract(at(c), at(a))));
-  // As measured: in a cube of this side, and below a square of a thin plate.
-  constexpr double kInCube = 9.8, kPerSquare = 3.5;
-  const double wanted =
-      std::max(kInCube * sixth / (6 * size * size * size), kPerSquare * half / (2 * size * size));
-  if (!(wanted > 2 * static_cast<double>(mesh.tetrahedra.size()))) return "";
-  const auto two_digits = [](double value) {
-    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
-    return number(std::round(value / unit) * unit, 0);
-  };
-  return "; coarse for a solver: --size " + number(size, 0) + " makes about " + two_digits(wanted);
+std::string size_text(const Statistics& s) {
+  if (s.default_size == 0) return "";
+  return "; edges of " + number(s.default_size, 0) + " by default, because there are only " +
+         std::to_string(s.tetrahedra_without_size) + " tetrahedra with --size none";
 }
 
 std::string quality_text(const PlaneResult& result) {

@@ -15,10 +15,8 @@ namespace delmesher::cli {
 std::string quality_text(const Result& result);
 std::string quality_text(const PlaneResult& result);
 
-// Where no option bounds edges, and edges of a tenth of the diagonal would take twice the
-// tetrahedra: such a length, and about how many it gives. Else empty.
-std::string coarseness_text(const Result& result, const Options& options,
-                            const std::vector<SizeSource>& sizes);
+// Of a size that was chosen; else empty.
+std::string size_text(const Statistics& statistics);
 
 // Warnings where angles are smaller than asked for, or dihedral angles below 5 degrees: where, and
 // whether an edge or a corner of the input forces it. `delta`: Options::delta.

@@ -248,6 +248,8 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"spared", s.diagonals_spared},
                     {"given_up", s.planar_given_up},
                     {"limit", limit_name(s.planar_limit)}};
+  json["default_size"] = {{"size", s.default_size},
+                          {"tetrahedra_without", s.tetrahedra_without_size}};
   json["remesh"] = {{"tolerance", s.tolerance}, {"triangles", s.remeshed_triangles}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};

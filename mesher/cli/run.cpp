@@ -174,8 +174,8 @@ int Runner::mesh() {
            remeshed_text(surface_.triangles.size(), s.remeshed_triangles, s.tolerance));
   }
   if (s.ladder[Rung::keep_surface] > 0) {
-    const bool bounds_edges =
-        options != nullptr && (bound_on_edges(*options) > 0 || !sizes_.empty());
+    const bool bounds_edges = options != nullptr && (bound_on_edges(*options) > 0 ||
+                                                     !sizes_.empty() || s.default_size > 0);
     remark(kept_text(command_.input, s, bounds_edges));
   }
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
@@ -190,8 +190,6 @@ int Runner::mesh() {
       result.warnings.push_back(std::move(warning));
     }
   }
-  const std::string coarse =
-      options != nullptr ? coarseness_text(result, *options, sizes_) : std::string();
   return finish({result.status, result.warnings,
                  [&](io::OutputSet& outputs) { return write_all(outputs, result); },
                  [&] { return stats_json(command_, result, facts_); },
@@ -199,7 +197,7 @@ int Runner::mesh() {
                    return conclude(s.phase_seconds,
                                    {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
                                     s.rounding_inverted, s.rounding_flat, "tetrahedra",
-                                    quality_text(result) + coarse});
+                                    quality_text(result) + size_text(s)});
                  }});
 }
 

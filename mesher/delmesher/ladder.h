@@ -26,9 +26,11 @@ enum class Rung : std::uint8_t {
   // where vertices were moved to make facets planar, and where the mesh has gone back.
   keep_surface,
   back_to_given,
-  no_planes
+  no_planes,
+  // The run: the mesh is not too coarse for a solver.
+  default_size
 };
-inline constexpr std::size_t kRungCount = 10;
+inline constexpr std::size_t kRungCount = 11;
 
 // Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
 struct RungRow {
@@ -61,6 +63,8 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
     {"back_to_given", 1, "the mesh may go back", "as with planar facets only while it is refined",
      "nothing", "a run"},
     {"no_planes", 1, "", "no planar facets", "nothing", "a run; tetrahedra as before"},
+    {"default_size", 1, "--size auto", "edges of a tenth or twentieth of the diagonal", "nothing",
+     "a run; more than twice the tetrahedra"},
 }};
 
 // How often each rung was taken.

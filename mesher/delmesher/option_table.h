@@ -250,13 +250,22 @@ inline constexpr std::tuple kTable{
     Row({.name = "size",
          .help =
              "edges of this length on average, none above 1.45 times it, shorter ones where the "
+             "surface has them; auto: a tenth of the diagonal, a twentieth in thin parts, where "
+             "meshes are too coarse for a solver without and no option says how fine they are",
+         .bounds = kAnyLength,
+         .unit = Unit::length,
+         .promised = true,
+         .with_kept_surface = true,
+         .words = {{{"auto", kSizeAuto}, {"none", 0}}}},
+        &Options::size),
+    Row({.name = "size",
+         .help =
+             "edges of this length on average, none above 1.45 times it, shorter ones where the "
              "surface has them",
          .bounds = kAnyLength,
          .unit = Unit::length,
-         .zero_is_none = true,
-         .promised = true,
-         .with_kept_surface = true},
-        &Options::size, &RemeshOptions::size),
+         .zero_is_none = true},
+        &RemeshOptions::size),
     Row({.name = "max_edge",
          .help = "no longer edge is made",
          .bounds = kAnyLength,
@@ -567,7 +576,7 @@ void scale_lengths(JobOptions& options, int exponent) {
   for_each(options, [&]<class T>(const Text& text, T& member) {
     if (text.unit != Unit::length && text.unit != Unit::length_or_share) return;
     if constexpr (kind_of<T>() == Kind::number) {
-      if (text.unit == Unit::length || member > 0) member = std::ldexp(member, exponent);
+      if (member > 0) member = std::ldexp(member, exponent);
     } else if constexpr (kind_of<T>() == Kind::sources) {
       for (SizeSource& source : member) {
         for (double& x : source.point) x = std::ldexp(x, exponent);

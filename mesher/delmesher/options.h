@@ -16,6 +16,7 @@
 namespace delmesher {
 
 inline constexpr double kPlanarAuto = -1;
+inline constexpr double kSizeAuto = -1;
 
 // What becomes of the triangles of the surface.
 enum class SurfaceChoice : std::uint8_t {
@@ -132,8 +133,11 @@ struct Options : Limits {
   double max_edge = 0;                   // largest edge wanted inside; 0: no bound
   std::vector<RegionSize> region_sizes;  // smaller ones in regions, with other Regions than solid
   // Length that edges shall have on average: none is longer than kMostOfSize times it. Where the
-  // surface has shorter ones, or features that ask for them, edges are shorter. 0: any.
-  double size = 0;
+  // surface has shorter ones, or features that ask for them, edges are shorter. 0: any. kSizeAuto:
+  // a tenth of the bounding box's diagonal, or down to a twentieth in parts as thin as that, where
+  // this makes more than twice the tetrahedra of any, which are too few for a solver, and no other
+  // option says how many there shall be; else any.
+  double size = kSizeAuto;
   // Smaller edges in places: nowhere along an edge inside is it longer than size + size_growth *
   // distance, of any of these sources and its distance. Empty: no bound.
   std::vector<SizeSource> size_field;
@@ -155,7 +159,7 @@ struct RemeshOptions : Limits {
   double tolerance = -1e-3;            // as in Options; not 0
   double feature = 40;                 // as in Options
   double max_edge = 0;                 // edges that are longer are split; 0: no bound
-  double size = 0;                     // as in Options
+  double size = 0;                     // as in Options, but for kSizeAuto
   std::vector<SizeSource> size_field;  // as in Options
   double size_growth = 0.3;
 };

@@ -34,6 +34,9 @@ struct MeshStatistics {
 struct Statistics {
   std::array<double, kPhaseCount> phase_seconds{};
   double bbox_diagonal = 0;
+  // Options::size, if it was chosen, and the tetrahedra without; else 0.
+  double default_size = 0;
+  std::uint64_t tetrahedra_without_size = 0;
   // With Options::tolerance: the length, and the triangles of the surface that was meshed.
   double tolerance = 0;
   std::uint64_t remeshed_triangles = 0;

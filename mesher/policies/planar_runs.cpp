@@ -27,6 +27,10 @@ bool PlanarRuns::good_enough(const Result& best) {
   return s.planar_groups == 0 || defects(best) == Defects{};
 }
 
+bool PlanarRuns::is_worse(const Result& result, const Result& than) {
+  return defects(than) < defects(result);
+}
+
 bool PlanarRuns::applies(Rung rung) const {
   if (first_.time_limit_seconds > 0 && seconds_left() <= 0) return false;
   return rung == Rung::no_planes || (first_.planar != 0 && goes_back(options()));

@@ -31,6 +31,8 @@ class PlanarRuns {
   bool is_too_heavy(const Result& best) const;
   // The options of the run after that.
   Options kept_options() const { return in_time_left(first_); }
+  // Has the first more inverted or flat tetrahedra, lost lines, or coordinates given up?
+  static bool is_worse(const Result& result, const Result& than);
   // `best` becomes the result of such a run if it is better, if that run was interrupted, or if no
   // way led back from `best`. If it does not, its statistics name the limit that ended that run.
   static void keep_better(Result result, Result& best);

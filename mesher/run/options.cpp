@@ -148,6 +148,7 @@ Options paper_options() {
   paper.improve = false;
   paper.slivers = true;
   paper.planar = 0;
+  paper.size = 0;
   paper.region = Region::hull;
   choose_all_of_paper(paper);
   return paper;

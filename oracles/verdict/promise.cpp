@@ -229,6 +229,7 @@ void set_defaults(Task task, bool paper, Promise& p) {
   if (task == Task::cdt) p.region = Region::hull;
   p.may_keep = p.improve = task == Task::mesh && !paper;
   if (task != Task::mesh || paper) p.planar = 0;
+  if (task == Task::mesh && !paper) p.size = Promise::kSizeAuto;
   if (task == Task::plane) p.delta = 20.7;
   if (!paper) return;
   choose_all(true, p);
@@ -262,8 +263,10 @@ void set_kept(Promise& p) {
 }
 
 // Edges of a length on average are no longer than 1.45 times it.
+constexpr double kMostOfSize = 1.45;
+
 void bound_edges(Promise& p) {
-  const double most = 1.45 * p.size;
+  const double most = kMostOfSize * p.size;
   p.edges_by_size = p.size > 0 && !(p.max_edge > 0 && p.max_edge < most);
   if (p.edges_by_size) p.max_edge = most;
 }
@@ -427,6 +430,11 @@ class PromiseReader {
   std::string take_number(const Option& option, Promise& p) {
     if (option.target == decltype(option.target)(&Promise::planar) && *value_ == "auto") {
       p.planar = Promise::kPlanarAuto;
+      return {};
+    }
+    if (option.target == decltype(option.target)(&Promise::size) &&
+        (*value_ == "auto" || *value_ == "none")) {
+      p.size = *value_ == "auto" ? Promise::kSizeAuto : 0;
       return {};
     }
     constexpr double kLargestShare = 0.1;
@@ -620,6 +628,15 @@ void Promise::settle(const ExactRecord& record) {
   set_kept(*this);
 }
 
+void Promise::allow_sizes(double diagonal) {
+  const bool may_choose = size == kSizeAuto && !keep && !all_regions && tolerance == 0 &&
+                          max_edge == 0 && size_field.empty() && budget == 0 && planar != 0 &&
+                          improve && !approximate && region == Region::interior &&
+                          task == Task::mesh;
+  constexpr double kSmallest = 0.05;  // of the diagonal
+  longest_unasked = may_choose ? kMostOfSize * kSmallest * diagonal : 0;
+}
+
 double Promise::most_planar() const {
   return planar == kPlanarAuto ? kMostAutomatic : planar;
 }
@@ -645,6 +662,7 @@ std::string parse_promise(std::string_view text, Promise& promise) {
 }
 
 void for_each_length(Promise& promise, const std::function<void(double&)>& visit) {
+  visit(promise.longest_unasked);
   for (const Option& option : kOptions) {
     if (option.takes == Takes::length) visit(promise.*std::get<double Promise::*>(option.target));
     if (option.takes == Takes::length_or_regions) {

@@ -20,7 +20,7 @@ enum class Task : std::uint8_t { mesh, cdt, plane, improve };
 
 // Options of delmesher as docs/options.md documents them, with its defaults.
 struct Promise {
-  static constexpr double kPlanarAuto = -1;
+  static constexpr double kPlanarAuto = -1, kSizeAuto = -1;
   // docs/planar.md: what `auto` is without evidence in the input, and the most that it is with any.
   static constexpr double kAutomatic = 0x1p-18, kMostAutomatic = 0x1p-12;
 
@@ -70,9 +70,12 @@ struct Promise {
   bool filter_chamfered = false;  // both sides of chamfered features below tau dropped
   bool no_guard = false;          // nothing stricter than was asked for
   delmesher::Region region = delmesher::Region::interior;
-  double chamfer_radius = 0;                           // input units; 0: no bound
-  double max_edge = 0;                                 // input units; 0: no bound
-  double size = 0;                                     // of edges on average; 0: any
+  double chamfer_radius = 0;  // input units; 0: no bound
+  double max_edge = 0;        // input units; 0: no bound
+  // Of edges on average; 0: any. kSizeAuto: any, or one that the mesher chose.
+  double size = 0;
+  // Edges longer than this may have been halved for such a size; 0: none. The verification sets it.
+  double longest_unasked = 0;
   bool edges_by_size = false;                          // max_edge follows from it
   std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
   double size_growth = 0.3;
@@ -86,6 +89,9 @@ struct Promise {
   // for edges that are longer than promised. With an option that only the refinement uses it may
   // not be.
   void settle(const delmesher::ExactRecord& record);
+
+  // Of a surface of this diagonal, in its units, before settle().
+  void allow_sizes(double diagonal);
 
   // The option that max_edge is of.
   const char* bound_on_edges() const { return edges_by_size ? "--size" : "--max-edge"; }
