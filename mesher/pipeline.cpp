@@ -666,6 +666,9 @@ struct Sizing {
     }
     sized.statistics.default_size = chosen.size;
     sized.statistics.tetrahedra_without_size = best.mesh.tetrahedra.size();
+    for (std::size_t i = 0; i < kPhaseCount; ++i) {
+      sized.statistics.phase_seconds[i] += best.statistics.phase_seconds[i];
+    }
     best = std::move(sized);
   }
   double seconds_left() const {

@@ -120,6 +120,33 @@ void name_what_is_trusted(const Frame& frame, bool may_keep, std::size_t tetrahe
   if (count > promise.budget) add("--budget", " (there are %.0f tetrahedra)", count);
 }
 
+// In doubles: how long edges may be need not be exact.
+void allow_sizes(const Polyhedron& input, const MeshFile& mesh, Promise& promise) {
+  const auto edge = [](const Position& a, const Position& b) {
+    return Position{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  };
+  const auto cross = [](const Position& u, const Position& v) {
+    return Position{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                    u[0] * v[1] - u[1] * v[0]};
+  };
+  double volume = 0, area = 0;
+  const auto is_there = [&](Index v) { return v < mesh.vertices.size(); };
+  for (const Tet& tet : mesh.tetrahedra) {
+    if (!std::ranges::all_of(tet, is_there)) continue;  // reported later
+    const Position &a = mesh.vertices[tet[0]], &b = mesh.vertices[tet[1]];
+    const Position normal = cross(edge(a, b), edge(a, mesh.vertices[tet[2]])),
+                   height = edge(a, mesh.vertices[tet[3]]);
+    volume += std::fabs(normal[0] * height[0] + normal[1] * height[1] + normal[2] * height[2]) / 6;
+  }
+  for (const Face& face : input.triangles) {
+    const Position& a = input.vertices[face[0]];
+    const Position normal =
+        cross(edge(a, input.vertices[face[1]]), edge(a, input.vertices[face[2]]));
+    area += std::hypot(normal[0], normal[1], normal[2]) / 2;
+  }
+  promise.allow_sizes(diagonal_of(input), volume, area);
+}
+
 // Every deviation; other figures of lengths stay.
 void put_in_given_units(const Frame& frame, VerifyReport& report) {
   if (!frame.scaled) return;
@@ -199,7 +226,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   }
   Promise& promised = frame.options.promised;
   const bool may_keep = promised.may_keep;
-  promised.allow_sizes(diagonal_of(*frame.input));
+  allow_sizes(*frame.input, mesh, promised);
   const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped
   if (exact != nullptr) promised.settle(*exact);
   if (promised.keep && frame.options.stage == Stage::both) {

@@ -135,6 +135,25 @@ TEST(Sizes, TheSmallerBoundCounts) {
   EXPECT_EQ(mesh(0.5 / delmesher::kMostOfSize, 0.6).tetrahedra, alone.tetrahedra);
 }
 
+// Edges may be halved without being asked where they exceed the size that may have been chosen: of
+// a cube a tenth of the diagonal, of a bar a twentieth, of a slab its thickness (less a hundredth,
+// for facets that are planar but for roundings).
+TEST(Sizes, UnaskedAreAsTheDefaultMayBe) {
+  const auto of = [](const std::string& options, double diagonal, double volume, double area) {
+    oracles::Promise promise;
+    EXPECT_EQ(oracles::parse_promise(options, promise), "");
+    promise.allow_sizes(diagonal, volume, area);
+    return promise.longest_unasked / delmesher::kMostOfSize;
+  };
+  EXPECT_NEAR(of("mesh", std::sqrt(3), 1, 6), std::sqrt(3) / 10, 1e-12);
+  EXPECT_NEAR(of("mesh --size auto", std::sqrt(102), 10, 42), std::sqrt(102) / 20, 1e-12);
+  EXPECT_NEAR(of("mesh", std::sqrt(8.04), 0.8, 9.6), 0.99 * 2 * 0.8 / 9.6, 1e-12);
+  for (const char* options : {"mesh --size none", "mesh --size 1", "mesh --max-edge 1", "cdt",
+                              "mesh --surface keep", "mesh --planar 0", "mesh --preset paper"}) {
+    EXPECT_EQ(of(options, std::sqrt(3), 1, 6), 0) << options;
+  }
+}
+
 TEST(Sizes, ASizeThatIsNoneIsRejected) {
   for (const double size : {-2.0, std::nan("")}) {
     Options options;

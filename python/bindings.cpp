@@ -250,6 +250,8 @@ py::dict dict_of(Result&& result) {
   stats["final"] = statistics_of(s.final);
   stats["seconds"] = seconds_of(s.phase_seconds);
   stats["bbox_diagonal"] = s.bbox_diagonal;
+  stats["default_size"] = s.default_size;
+  stats["tetrahedra_without_size"] = s.tetrahedra_without_size;
   stats["facets"] = s.facets;
   stats["acute_vertices"] = s.acute_vertices;
   stats["acute_edges"] = s.acute_edges;

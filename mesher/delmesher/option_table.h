@@ -252,7 +252,7 @@ inline constexpr std::tuple kTable{
              "edges of this length on average, none above 1.45 times it, shorter ones where the "
              "surface has them; auto: a tenth of the diagonal, a twentieth in thin parts, where "
              "meshes are too coarse for a solver without and no option says how fine they are",
-         .bounds = kAnyLength,
+         .bounds = {.high = kNoBound, .above_low = true},
          .unit = Unit::length,
          .promised = true,
          .with_kept_surface = true,

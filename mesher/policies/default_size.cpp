@@ -38,12 +38,17 @@ DefaultSize default_size(const Result& without_size) {
       std::max(kInCube * sixth / (6 * size * size * size), kPerSquare * half / (2 * size * size));
   const bool few = static_cast<double>(mesh.tetrahedra.size()) < kFew * made;
   if (!few || thickness < kThinnest * size) return {};
-  return {size, without_size.mesh.vertices.size() + static_cast<std::uint64_t>(made)};
+  constexpr double kMostTimes = 3;  // vertices per tetrahedron expected; usual is a quarter
+  return {size, without_size.mesh.vertices.size() + static_cast<std::uint64_t>(kMostTimes * made)};
 }
 
 std::string why_not(const Result& sized, const Result& without_size) {
   constexpr double kMostBad = 0.1;
-  if (PlanarRuns::is_worse(sized, without_size)) return "tetrahedra are inverted or flat";
+  if (PlanarRuns::is_worse(sized, without_size)) {
+    return "tetrahedra are inverted or flat, lines are lost, or coordinates are not exact";
+  }
+  const auto is_kept = [](const Result& r) { return r.statistics.ladder[Rung::keep_surface] > 0; };
+  if (is_kept(sized) && !is_kept(without_size)) return "the surface would have to be kept";
   const MeshStatistics& s = sized.statistics.final;
   const bool is_bad = static_cast<double>(s.below_5) > kMostBad * static_cast<double>(s.tetrahedra);
   return is_bad ? "too many tetrahedra have dihedral angles below 5 degrees" : "";

@@ -20,12 +20,13 @@ bool may_choose_size(const Options& options);
 // thinner than a tenth of it: all of those would have dihedral angles below 6 degrees.
 struct DefaultSize {
   double size = 0;
-  std::uint64_t most_vertices = 0;  // several times as many as that should take
+  std::uint64_t most_vertices = 0;  // twelve times as many as that should take
 };
 DefaultSize default_size(const Result& without_size);
 
-// Why the mesh with that size is no better for a solver than the one without: it has inverted or
-// flat tetrahedra, or one in ten has a dihedral angle below 5 degrees. Empty if it is.
+// Why the mesh with that size is no better for a solver than the one without: it has more defects,
+// its surface alone is kept, or of ten tetrahedra more than one has a dihedral angle below 5
+// degrees. Empty if it is.
 std::string why_not(const Result& sized, const Result& without_size);
 
 }  // namespace delmesher::policies

@@ -628,13 +628,17 @@ void Promise::settle(const ExactRecord& record) {
   set_kept(*this);
 }
 
-void Promise::allow_sizes(double diagonal) {
+void Promise::allow_sizes(double diagonal, double volume, double area) {
   const bool may_choose = size == kSizeAuto && !keep && !all_regions && tolerance == 0 &&
                           max_edge == 0 && size_field.empty() && budget == 0 && planar != 0 &&
                           improve && !approximate && region == Region::interior &&
                           task == Task::mesh;
-  constexpr double kSmallest = 0.05;  // of the diagonal
-  longest_unasked = may_choose ? kMostOfSize * kSmallest * diagonal : 0;
+  // Twice the volume by the area, which planar facets change a little; of the diagonal.
+  constexpr double kSmallest = 0.05, kLargest = 0.1, kRounded = 0.99;
+  const double thickness = kRounded * 2 * volume / area;
+  const double least = thickness > kSmallest * diagonal ? std::min(thickness, kLargest * diagonal)
+                                                        : kSmallest * diagonal;
+  longest_unasked = may_choose ? kMostOfSize * least : 0;
 }
 
 double Promise::most_planar() const {

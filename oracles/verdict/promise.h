@@ -90,8 +90,8 @@ struct Promise {
   // not be.
   void settle(const delmesher::ExactRecord& record);
 
-  // Of a surface of this diagonal, in its units, before settle().
-  void allow_sizes(double diagonal);
+  // Of a surface of this diagonal, and a mesh of this volume and area, before settle().
+  void allow_sizes(double diagonal, double volume, double area);
 
   // The option that max_edge is of.
   const char* bound_on_edges() const { return edges_by_size ? "--size" : "--max-edge"; }
