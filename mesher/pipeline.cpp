@@ -660,15 +660,16 @@ struct Sizing {
     if (limit == Limit::size && bounded) {
       why = "more than " + std::to_string(chosen.most_vertices) + " vertices";
     }
+    for (std::size_t i = 0; i < kPhaseCount; ++i) {
+      double &first = best.statistics.phase_seconds[i], &second = sized.statistics.phase_seconds[i];
+      first = second = first + second;
+    }
     if (given_up) {
       best.warnings.push_back("coarse for a solver, but with a size: " + why);
       return;
     }
     sized.statistics.default_size = chosen.size;
     sized.statistics.tetrahedra_without_size = best.mesh.tetrahedra.size();
-    for (std::size_t i = 0; i < kPhaseCount; ++i) {
-      sized.statistics.phase_seconds[i] += best.statistics.phase_seconds[i];
-    }
     best = std::move(sized);
   }
   double seconds_left() const {

@@ -139,6 +139,7 @@ void allow_sizes(const Polyhedron& input, const MeshFile& mesh, Promise& promise
     volume += std::fabs(normal[0] * height[0] + normal[1] * height[1] + normal[2] * height[2]) / 6;
   }
   for (const Face& face : input.triangles) {
+    if (std::ranges::any_of(face, [&](Index v) { return v >= input.vertices.size(); })) continue;
     const Position& a = input.vertices[face[0]];
     const Position normal =
         cross(edge(a, input.vertices[face[1]]), edge(a, input.vertices[face[2]]));

@@ -176,8 +176,12 @@ void locate_findings(const Arguments& arguments, VerifyReport& report) {
   if (!is_file(arguments.input) || !is_file(arguments.mesh)) return;
   if (std::ranges::none_of(report.oracles, has_site)) return;
   const bool of_surface = arguments.options.promised.task != Task::improve;
-  locate(of_surface ? read_surface(arguments.input) : Polyhedron(), read_mesh(arguments.mesh),
-         report);
+  try {
+    locate(of_surface ? read_surface(arguments.input) : Polyhedron(), read_mesh(arguments.mesh),
+           report);
+  } catch (const std::exception&) {
+    // The verdict counts without places: there is no memory left, or the files have changed.
+  }
 }
 
 // The same in the plane.

@@ -136,8 +136,8 @@ TEST(Sizes, TheSmallerBoundCounts) {
 }
 
 // Edges may be halved without being asked where they exceed the size that may have been chosen: of
-// a cube a tenth of the diagonal, of a bar a twentieth, of a slab its thickness (less a hundredth,
-// for facets that are planar but for roundings).
+// a cube a tenth of the diagonal, of a bar a twentieth, of a slab its thickness, less what facets
+// that are planar but for roundings may take.
 TEST(Sizes, UnaskedAreAsTheDefaultMayBe) {
   const auto of = [](const std::string& options, double diagonal, double volume, double area) {
     oracles::Promise promise;
@@ -147,7 +147,8 @@ TEST(Sizes, UnaskedAreAsTheDefaultMayBe) {
   };
   EXPECT_NEAR(of("mesh", std::sqrt(3), 1, 6), std::sqrt(3) / 10, 1e-12);
   EXPECT_NEAR(of("mesh --size auto", std::sqrt(102), 10, 42), std::sqrt(102) / 20, 1e-12);
-  EXPECT_NEAR(of("mesh", std::sqrt(8.04), 0.8, 9.6), 0.99 * 2 * 0.8 / 9.6, 1e-12);
+  EXPECT_NEAR(of("mesh", std::sqrt(8.04), 0.8, 9.6),
+              0.999 * 2 * 0.8 / 9.6 - 0x2p-12 * std::sqrt(8.04), 1e-12);
   for (const char* options : {"mesh --size none", "mesh --size 1", "mesh --max-edge 1", "cdt",
                               "mesh --surface keep", "mesh --planar 0", "mesh --preset paper"}) {
     EXPECT_EQ(of(options, std::sqrt(3), 1, 6), 0) << options;

@@ -274,9 +274,11 @@ class Wedges {
     } else {
       for (const Index t : recorded_.final.at(v)) {
         const Triangle& triangle = recorded_.final.triangles()[t];
-        if (triangle.side == Side::inside) {
-          inside_from_.push_back(recorded_.final.centroid(triangle));
-        }
+        if (triangle.side != Side::inside) continue;
+        Point centroid = recorded_.final.centroid(triangle);
+        // A triangle without corners of its own may have that, and no direction.
+        const bool is_there = centroid.x == point(v).x && centroid.y == point(v).y;
+        if (!is_there) inside_from_.push_back(std::move(centroid));
       }
     }
     std::sort(inside_from_.begin(), inside_from_.end(),

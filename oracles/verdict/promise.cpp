@@ -633,9 +633,10 @@ void Promise::allow_sizes(double diagonal, double volume, double area) {
                           max_edge == 0 && size_field.empty() && budget == 0 && planar != 0 &&
                           improve && !approximate && region == Region::interior &&
                           task == Task::mesh;
-  // Twice the volume by the area, which planar facets change a little; of the diagonal.
-  constexpr double kSmallest = 0.05, kLargest = 0.1, kRounded = 0.99;
-  const double thickness = kRounded * 2 * volume / area;
+  // Of the diagonal, but for the last.
+  constexpr double kSmallest = 0.05, kLargest = 0.1, kRounded = 0.999;
+  // Planar facets may make the part thinner on both sides.
+  const double thickness = kRounded * 2 * volume / area - 2 * most_planar() * diagonal;
   const double least = thickness > kSmallest * diagonal ? std::min(thickness, kLargest * diagonal)
                                                         : kSmallest * diagonal;
   longest_unasked = may_choose ? kMostOfSize * least : 0;

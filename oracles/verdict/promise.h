@@ -90,7 +90,7 @@ struct Promise {
   // not be.
   void settle(const delmesher::ExactRecord& record);
 
-  // Of a surface of this diagonal, and a mesh of this volume and area, before settle().
+  // Of a surface of this diagonal and area, and a mesh of this volume, before settle().
   void allow_sizes(double diagonal, double volume, double area);
 
   // The option that max_edge is of.
