@@ -153,6 +153,12 @@ def test_limits():
     assert caught.value.limit == "size"
 
 
+def test_a_size_by_default_is_told():
+    told, none = tetproof.mesh(POINTS, TRIANGLES).stats, tetproof.mesh(POINTS, TRIANGLES, size="none").stats
+    assert told["default_size"] == pytest.approx(np.sqrt(3) / 10) and told["tetrahedra_without_size"] == none["final"]["tetrahedra"]
+    assert none["default_size"] == 0 and none["tetrahedra_without_size"] == 0
+
+
 def test_progress():
     phases = []
     tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3, progress=lambda phase, done, vertices: phases.append(phase))
@@ -161,7 +167,7 @@ def test_progress():
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: False)
     with pytest.raises(ZeroDivisionError):
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: 1 / 0)
-    assert len(tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: "going on").points) == 8
+    assert len(tetproof.mesh(POINTS, TRIANGLES, size="none", progress=lambda *_: "going on").points) == 8
     with pytest.raises(ValueError, match="ambiguous"):
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: np.array([1, 2]))
 
@@ -510,7 +516,7 @@ def test_files_are_given_by_name(tmp_path):
 
 
 def test_objects_are_told_in_a_line():
-    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS)
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS, size="none")
     assert repr(mesh) == "Mesh(8 points, 6 tetrahedra, 12 boundary triangles, smallest dihedral angle 45.00 degrees)"
     assert repr(tetproof.Surface(POINTS, TRIANGLES, LABELS)) == "Surface(8 points, 12 triangles, 6 labels)"
     plane = tetproof.plane([[0, 0], [1, 0], [0, 1]], [[0, 1], [1, 2], [2, 0]])
