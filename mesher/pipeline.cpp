@@ -635,7 +635,6 @@ struct Sizing {
   const LocalFrame& frame;
   Options options;
   const Clock::time_point start = Clock::now();
-  const bool may_choose = may_choose_size(options);
   Result best{};
   DefaultSize chosen{};
 
@@ -643,7 +642,7 @@ struct Sizing {
 
   void attempt() {
     best = best_of_runs(surface, options, frame);
-    if (may_choose && best.status.ok()) chosen = default_size(best);
+    if (may_choose_size(options) && best.status.ok()) chosen = default_size(best);
   }
   void take_size() {
     const std::uint64_t asked = options.max_vertices;
@@ -652,14 +651,14 @@ struct Sizing {
     options.max_vertices = bounded ? chosen.most_vertices : asked;
     options.time_limit_seconds = seconds_left();
     Result sized = best_of_runs(surface, options, frame);
-    const Limit limit = sized.status.limit;
-    std::string why = sized.status.ok() ? why_not(sized, best) : sized.status.message;
-    const bool given_up = sized.status.ok()
-                              ? !why.empty()
-                              : limit == Limit::precision || (limit == Limit::size && bounded);
-    if (limit == Limit::size && bounded) {
-      why = "more than " + std::to_string(chosen.most_vertices) + " vertices";
-    }
+    const Status& status = sized.status;
+    const bool is_far_more = status.limit == Limit::size && bounded;
+    const std::string why = is_far_more
+                                ? "more than " + std::to_string(chosen.most_vertices) + " vertices"
+                            : status.ok() ? why_not(sized, best)
+                                          : status.message;
+    const bool given_up =
+        is_far_more || status.limit == Limit::precision || (status.ok() && !why.empty());
     for (std::size_t i = 0; i < kPhaseCount; ++i) {
       double &first = best.statistics.phase_seconds[i], &second = sized.statistics.phase_seconds[i];
       first = second = first + second;

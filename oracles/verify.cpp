@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracles/base/parallel.h"
+#include "oracles/base/vectors.h"
 #include "oracles/envelope.h"
 #include "oracles/plan.h"
 #include "oracles/record/ordinary_units.h"
@@ -122,28 +123,22 @@ void name_what_is_trusted(const Frame& frame, bool may_keep, std::size_t tetrahe
 
 // In doubles: how long edges may be need not be exact.
 void allow_sizes(const Polyhedron& input, const MeshFile& mesh, Promise& promise) {
-  const auto edge = [](const Position& a, const Position& b) {
-    return Position{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const auto are_there = [](const auto& corners, const std::vector<Position>& vertices) {
+    return std::ranges::all_of(corners, [&](Index v) { return v < vertices.size(); });
   };
-  const auto cross = [](const Position& u, const Position& v) {
-    return Position{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                    u[0] * v[1] - u[1] * v[0]};
+  const auto normal_of = [](const auto& corners, const std::vector<Position>& vertices) {
+    const Position& a = vertices[corners[0]];
+    return cross(minus(vertices[corners[1]], a), minus(vertices[corners[2]], a));
   };
   double volume = 0, area = 0;
-  const auto is_there = [&](Index v) { return v < mesh.vertices.size(); };
   for (const Tet& tet : mesh.tetrahedra) {
-    if (!std::ranges::all_of(tet, is_there)) continue;  // reported later
-    const Position &a = mesh.vertices[tet[0]], &b = mesh.vertices[tet[1]];
-    const Position normal = cross(edge(a, b), edge(a, mesh.vertices[tet[2]])),
-                   height = edge(a, mesh.vertices[tet[3]]);
-    volume += std::fabs(normal[0] * height[0] + normal[1] * height[1] + normal[2] * height[2]) / 6;
+    if (!are_there(tet, mesh.vertices)) continue;  // reported later
+    const Position height = minus(mesh.vertices[tet[3]], mesh.vertices[tet[0]]);
+    volume += std::fabs(dot(normal_of(tet, mesh.vertices), height)) / 6;
   }
   for (const Face& face : input.triangles) {
-    if (std::ranges::any_of(face, [&](Index v) { return v >= input.vertices.size(); })) continue;
-    const Position& a = input.vertices[face[0]];
-    const Position normal =
-        cross(edge(a, input.vertices[face[1]]), edge(a, input.vertices[face[2]]));
-    area += std::hypot(normal[0], normal[1], normal[2]) / 2;
+    if (!are_there(face, input.vertices)) continue;
+    area += distance(normal_of(face, input.vertices), {}) / 2;
   }
   promise.allow_sizes(diagonal_of(input), volume, area);
 }

@@ -22,24 +22,27 @@ DefaultSize default_size(const Result& without_size) {
   const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
   const double diagonal = without_size.statistics.bbox_diagonal;
   if (diagonal == 0 || mesh.tetrahedra.empty()) return {};
-  double sixth = 0, half = 0;  // of which volume and area are that part
+  double volume = 0, area = 0;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    sixth += std::fabs(
+    volume += std::fabs(
         dot(subtract(at(b), at(a)), cross(subtract(at(c), at(a)), subtract(at(d), at(a)))));
   }
   for (const auto& [a, b, c] : mesh.boundary) {
-    half += norm(cross(subtract(at(b), at(a)), subtract(at(c), at(a))));
+    area += norm(cross(subtract(at(b), at(a)), subtract(at(c), at(a))));
   }
-  const double thickness = 2 * (sixth / 6) / (half / 2);  // of a plate
+  volume /= 6;
+  area /= 2;
+  const double thickness = 2 * volume / area;  // of a plate
   const double size = std::clamp(thickness, kSmallest * diagonal, kLargest * diagonal);
-  // As measured: in a cube of this side, and below a square of a thin plate.
+  // As measured: in a cube of this side, and below a square of a thin plate, of which both faces
+  // count.
   constexpr double kInCube = 9.8, kPerSquare = 3.5;
   const double made =
-      std::max(kInCube * sixth / (6 * size * size * size), kPerSquare * half / (2 * size * size));
+      std::max(kInCube * volume / (size * size * size), kPerSquare * area / (size * size));
   const bool few = static_cast<double>(mesh.tetrahedra.size()) < kFew * made;
   if (!few || thickness < kThinnest * size) return {};
   constexpr double kMostTimes = 3;  // vertices per tetrahedron expected; usual is a quarter
-  return {size, without_size.mesh.vertices.size() + static_cast<std::uint64_t>(kMostTimes * made)};
+  return {size, mesh.vertices.size() + static_cast<std::uint64_t>(kMostTimes * made)};
 }
 
 std::string why_not(const Result& sized, const Result& without_size) {

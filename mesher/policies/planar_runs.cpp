@@ -67,7 +67,7 @@ void PlanarRuns::keep_better(Result result, Result& best) {
     result.statistics.planar_given_up = true;
   }
   const bool interrupted = result.status.code == StatusCode::interrupted;
-  const bool better = result.status.ok() && defects(result) < defects(best);
+  const bool better = result.status.ok() && is_worse(best, result);
   if (interrupted || better || s.planar_given_up) {
     best = std::move(result);
   } else if (!result.status.ok() && !result.statistics.planar_given_up) {
