@@ -6,6 +6,7 @@
 #include "mesher/base/sort_unique.h"
 #include "mesher/planar/flatness.h"
 #include "mesher/surface/given_place.h"
+#include "mesher/surface/half_edges.h"
 
 namespace delmesher::planar {
 namespace {
