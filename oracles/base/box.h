@@ -20,6 +20,10 @@ struct Box {
       high[axis] = std::max(high[axis], p[axis]);
     }
   }
+  void add(const Box& box) {
+    add(box.low);
+    add(box.high);
+  }
   // Infinite for an empty box.
   double diagonal() const { return distance(high, low); }
   // The largest absolute coordinate; infinite for an empty box.
@@ -27,6 +31,17 @@ struct Box {
   double largest(std::size_t axis) const { return std::max(high[axis], -low[axis]); }
   bool operator==(const Box&) const = default;
 };
+
+// All comparisons are made: which of them fails first cannot be foretold, and a wrong guess takes
+// longer than they do.
+inline bool meet(const Box& a, const Box& b) {
+  unsigned apart = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    apart |= static_cast<unsigned>(a.low[axis] > b.high[axis]) |
+             static_cast<unsigned>(b.low[axis] > a.high[axis]);
+  }
+  return apart == 0;
+}
 
 inline Box box_of(std::span<const Position> points) {
   Box box;

@@ -11,24 +11,6 @@ namespace {
 constexpr Index kLeafSize = 4;
 constexpr int kMaxDepth = 60;
 
-// All comparisons are made: which of them fails first cannot be foretold, and a wrong guess takes
-// longer than they do.
-bool meet(const BoxTree::Box& a, const BoxTree::Box& b) {
-  unsigned apart = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    apart |= static_cast<unsigned>(a.low[axis] > b.high[axis]) |
-             static_cast<unsigned>(b.low[axis] > a.high[axis]);
-  }
-  return apart == 0;
-}
-
-void enlarge(BoxTree::Box& box, const BoxTree::Box& other) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(box.low[axis], other.low[axis]);
-    box.high[axis] = std::max(box.high[axis], other.high[axis]);
-  }
-}
-
 double centre(const BoxTree::Box& box, int axis) {
   return box.low[axis] / 2 + box.high[axis] / 2;
 }
@@ -83,7 +65,7 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
 
 void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
   Box box = boxes_[order_[first]];
-  for (Index i = first; i < last; ++i) enlarge(box, boxes_[order_[i]]);
+  for (Index i = first; i < last; ++i) box.add(boxes_[order_[i]]);
   nodes_[node].box = box;
   if (last - first <= kLeafSize || depth == kMaxDepth) {
     nodes_[node].first = first;

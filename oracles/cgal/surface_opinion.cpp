@@ -3,10 +3,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +13,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "oracles/cgal/near_triangles.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -73,76 +73,64 @@ bool assemble(const Polyhedron& surface, const std::vector<Kernel::Point_3>& poi
   return true;
 }
 
-// Two triangles that are a closed component by themselves: not every release calls that an
-// intersection.
-void add_pairs_of_same_corners(const Mesh& mesh,
-                               std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>>& pairs) {
-  for (const auto face : mesh.faces()) {
-    const auto first = mesh.halfedge(face), second = mesh.next(first), third = mesh.next(second);
-    const auto other = mesh.face(mesh.opposite(first));
-    if (other == mesh.face(mesh.opposite(second)) && other == mesh.face(mesh.opposite(third))) {
-      pairs.emplace_back(face, other);
-    }
-  }
-}
-
-// Triangles of a complex, by vertices of which no two are at one place.
-class Complex {
+class Triangles {
  public:
-  explicit Complex(const Polyhedron& given) {
-    std::map<Position, std::size_t> vertex;
-    for (const auto& triangle : given.triangles) {
-      std::array<std::size_t, 3>& corners = corners_.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) {
-        Position p = given.vertices[triangle[k]];
-        for (double& x : p) x += 0;  // -0 is 0
-        corners[k] = vertex.try_emplace(p, points_.size()).first->second;
-        if (corners[k] == points_.size()) points_.emplace_back(p[0], p[1], p[2]);
+  // Vertices at one place are one in a complex. There, two triangles may be the same.
+  Triangles(const Polyhedron& given, bool complex) : complex_(complex) {
+    std::map<Position, Index> numbers;
+    for (Position p : given.vertices) {
+      for (double& x : p) x += 0;  // -0 is 0
+      positions_.push_back(p);
+      points_.emplace_back(p[0], p[1], p[2]);
+    }
+    for (Corners corners : given.triangles) {
+      for (Index& v : corners) {
+        if (complex) v = numbers.try_emplace(positions_[v], v).first->second;
       }
+      corners_.push_back(corners);
     }
   }
 
+  // The first that is flat, or the first two that meet elsewhere than in common corners.
   std::string defect() const {
-    std::vector<Box> boxes;
     for (std::size_t t = 0; t < corners_.size(); ++t) {
       const auto& [a, b, c] = corners_[t];
       if (CGAL::collinear(points_[a], points_[b], points_[c])) {
         return "triangle " + std::to_string(t) + " is flat";
       }
-      boxes.emplace_back(points_[a].bbox() + points_[b].bbox() + points_[c].bbox(), &corners_[t]);
     }
-    std::string found;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& x, const Box& y) {
-      const std::size_t t = number(x), u = number(y);
-      if (!found.empty() || !meet_elsewhere(t, u)) return;
-      found = "triangles " + std::to_string(t) + " and " + std::to_string(u) + " intersect";
+    constexpr std::pair kNobody(kNone, kNone);
+    std::pair<Index, Index> found = kNobody;
+    for_each_near_pair(positions_, corners_, [&](Index t, Index u) {
+      if (std::pair(t, u) < found && meet_elsewhere(t, u)) found = {t, u};
     });
-    return found;
+    if (found == kNobody) return {};
+    return "triangles " + std::to_string(found.first) + " and " + std::to_string(found.second) +
+           " intersect";
   }
 
  private:
-  using Corners = std::array<std::size_t, 3>;
-  using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Corners*>;
+  using Corners = std::array<Index, 3>;
 
-  std::size_t number(const Box& box) const {
-    return static_cast<std::size_t>(box.handle() - corners_.data());
-  }
   Kernel::Triangle_3 triangle(std::size_t t) const {
     const auto& [a, b, c] = corners_[t];
     return {points_[a], points_[b], points_[c]};
   }
   // The corners of t that u has not, then those that it has.
-  std::array<std::size_t, 3> apart_first(std::size_t t, std::size_t u) const {
-    std::array<std::size_t, 3> corners = corners_[t];
-    std::stable_partition(corners.begin(), corners.end(),
-                          [&](std::size_t v) { return std::ranges::count(corners_[u], v) == 0; });
+  Corners apart_first(Index t, Index u) const {
+    Corners corners{};
+    std::size_t apart = 0, common = 3;
+    for (const Index v : corners_[t]) {
+      const bool is_common = std::ranges::count(corners_[u], v) > 0;
+      corners[is_common ? --common : apart++] = v;
+    }
     return corners;
   }
-  bool meet_elsewhere(std::size_t t, std::size_t u) const {
-    const std::array<std::size_t, 3> p = apart_first(t, u), q = apart_first(u, t);
+  bool meet_elsewhere(Index t, Index u) const {
+    const Corners p = apart_first(t, u), q = apart_first(u, t);
     const auto common = static_cast<std::size_t>(
-        std::ranges::count_if(p, [&](std::size_t v) { return std::ranges::count(q, v) > 0; }));
-    const auto at = [&](std::size_t v) { return points_[v]; };
+        std::ranges::count_if(p, [&](Index v) { return std::ranges::count(q, v) > 0; }));
+    const auto at = [&](Index v) -> const Kernel::Point_3& { return points_[v]; };
     switch (common) {
       case 0:
         return CGAL::do_intersect(triangle(t), triangle(u));
@@ -153,19 +141,21 @@ class Complex {
         return CGAL::coplanar(at(p[1]), at(p[2]), at(p[0]), at(q[0])) &&
                CGAL::coplanar_orientation(at(p[1]), at(p[2]), at(p[0]), at(q[0])) == CGAL::POSITIVE;
       default:
-        return false;
+        return !complex_;
     }
   }
 
+  bool complex_;
+  std::vector<Position> positions_;
   std::vector<Kernel::Point_3> points_;
-  std::vector<std::array<std::size_t, 3>> corners_;
+  std::vector<Corners> corners_;
 };
 
 }  // namespace
 
 std::string cgal_complex_defect(const Polyhedron& complex) {
   const std::string reason = defect_of_lists(complex);
-  return reason.empty() ? Complex(complex).defect() : reason;
+  return reason.empty() ? Triangles(complex, true).defect() : reason;
 }
 
 SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQuestions& questions) {
@@ -191,20 +181,8 @@ SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQues
   }
   opinion.decides_intersections = questions.intersections;
   if (!questions.intersections) return opinion;
-  for (const auto face : mesh.faces()) {
-    if (!processing::is_degenerate_triangle_face(face, mesh)) continue;
-    opinion.reason = "triangle " + std::to_string(static_cast<std::size_t>(face)) + " is flat";
-    return opinion;
-  }
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  processing::self_intersections(mesh, std::back_inserter(pairs));
-  add_pairs_of_same_corners(mesh, pairs);
-  opinion.free_of_intersections = pairs.empty();
-  if (!pairs.empty()) {
-    const auto [a, b] = *std::min_element(pairs.begin(), pairs.end());
-    opinion.reason = "triangles " + std::to_string(static_cast<std::size_t>(a)) + " and " +
-                     std::to_string(static_cast<std::size_t>(b)) + " intersect";
-  }
+  opinion.reason = Triangles(surface, false).defect();
+  opinion.free_of_intersections = opinion.reason.empty();
   return opinion;
 }
 
