@@ -27,7 +27,8 @@ bool looks_up(const ExactPoints& points, const Face& face) {
 RayTarget::RayTarget(const ExactPoints& points, std::vector<Face> faces)
     : points_(&points),
       faces_(std::move(faces)),
-      tree_(std::make_unique<BoxTree>(boxes_of(points, faces_))) {}
+      tree_(std::make_unique<BoxTree>(boxes_of(points, faces_))),
+      parts_(points, faces_) {}
 
 // The ray begins just beyond the face, on the side to which it was moved or goes up.
 bool RayTarget::surrounds(const Face& face, bool behind, Index own) const {
@@ -40,7 +41,7 @@ bool RayTarget::surrounds(std::span<const Index> corners) const {
 }
 
 RayCrossings RayTarget::above(std::span<const Index> corners, Index except) const {
-  return crossings_above(*points_, faces_, *tree_, corners, except);
+  return crossings_above(*points_, faces_, *tree_, parts_, corners, except);
 }
 
 Solids::Solids(const ExactPoints& points, const std::vector<Face>& faces,

@@ -37,6 +37,7 @@ class RayTarget {
   const ExactPoints* points_;
   std::vector<Face> faces_;
   std::unique_ptr<BoxTree> tree_;
+  RayParts parts_;
 };
 
 class Solids {

@@ -169,6 +169,7 @@ void InputSurface::measure(const ExactPoints& points) {
   largest_coordinate_ = all.largest();
   diagonal_ = all.diagonal();
   tree_ = std::make_shared<const BoxTree>(std::move(boxes));
+  parts_ = std::make_shared<const RayParts>(points, triangles_);
 }
 
 std::vector<std::vector<Index>> InputSurface::components() const {
@@ -196,7 +197,8 @@ void InputSurface::orient_components(const ExactPoints& points) {
       const auto& [a, b, c] = triangles_[t];
       const int up = sgn(exact::area2(points, a, b, c)[2]);
       if (up == 0) continue;
-      const RayCrossings above = crossings_above(points, triangles_, *tree_, triangles_[t], t);
+      const RayCrossings above =
+          crossings_above(points, triangles_, *tree_, *parts_, triangles_[t], t);
       if (above.on_triangle) continue;
       if ((above.count % 2 == 0) != (up > 0)) {
         for (const Index f : component) std::swap(triangles_[f][1], triangles_[f][2]);

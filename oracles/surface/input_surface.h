@@ -17,6 +17,7 @@
 #include "oracles/base/triangle_sums.h"
 #include "oracles/base/vectors.h"
 #include "oracles/files/polyhedron.h"
+#include "oracles/surface/ray_parts.h"
 
 namespace tetproof::oracles {
 
@@ -182,10 +183,12 @@ class InputSurface {
   ExactSum volume6_;
   double diagonal_ = 0, largest_coordinate_ = 0;
   std::shared_ptr<const BoxTree> tree_;
+  std::shared_ptr<const RayParts> parts_;
 };
 
 // What the upward ray from the centroid of some points, moved by (e, e^2) for an infinitesimal e,
-// crosses of some triangles, whose boxes are in the tree; without triangle `except`.
+// crosses of some triangles, whose boxes are in the tree, but of parts that count for nothing;
+// without triangle `except`.
 struct RayCrossings {
   std::uint64_t count = 0;
   std::int64_t winding = 0;  // those seen counter-clockwise from above less the others
@@ -193,8 +196,8 @@ struct RayCrossings {
 };
 RayCrossings crossings_above(const ExactPoints& points,
                              const std::vector<std::array<Index, 3>>& triangles,
-                             const BoxTree& tree, std::span<const Index> corners,
-                             Index except = kNone);
+                             const BoxTree& tree, const RayParts& parts,
+                             std::span<const Index> corners, Index except = kNone);
 
 // The smallest box that certainly contains the points.
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);

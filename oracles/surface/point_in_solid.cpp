@@ -363,16 +363,19 @@ BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corner
 
 RayCrossings crossings_above(const ExactPoints& points,
                              const std::vector<std::array<Index, 3>>& triangles,
-                             const BoxTree& tree, std::span<const Index> corners, Index except) {
+                             const BoxTree& tree, const RayParts& parts,
+                             std::span<const Index> corners, Index except) {
   const Centroid q(points, corners);
   const IntervalVector p = q.position();
+  const BoxTree::Box around = {{p[0].low, p[1].low, p[2].low}, {p[0].high, p[1].high, p[2].high}};
+  const double top = parts.top_around(around);
+  if (top < around.low[2]) return {};
   thread_local std::vector<Index> found;  // allocating would take as long as the search
   found.clear();
-  tree.query({{p[0].low, p[1].low, p[2].low},
-              {p[0].high, p[1].high, std::numeric_limits<double>::infinity()}},
-             found);
+  tree.query({around.low, {around.high[0], around.high[1], top}}, found);
   RayCrossings crossings;
   for (const Index t : found) {
+    if (!parts.is_around(t, around)) continue;
     const auto& [a, b, c] = triangles[t];
     const int s = side_above(points, a, b, q);
     if (t == except || s == 0 || side_above(points, b, c, q) != s ||
@@ -392,7 +395,7 @@ RayCrossings crossings_above(const ExactPoints& points,
 }
 
 int InputSurface::inside(const ExactPoints& points, std::span<const Index> corners) const {
-  const RayCrossings crossings = crossings_above(points, triangles_, *tree_, corners);
+  const RayCrossings crossings = crossings_above(points, triangles_, *tree_, *parts_, corners);
   return crossings.on_triangle ? -1 : static_cast<int>(crossings.count % 2);
 }
 

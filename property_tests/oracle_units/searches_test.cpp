@@ -13,6 +13,8 @@
 #include "oracles/base/exact_points.h"
 #include "oracles/base/steps.h"
 #include "oracles/cgal/near_triangles.h"
+#include "oracles/mesh/solids.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof::searches_test {
 namespace {
@@ -156,6 +158,93 @@ TEST(NearTriangles, TakeFarLessThanQuadraticTimeAroundAVertexAndSideBySide) {
   EXPECT_LT(growth(0.001), 8);
   EXPECT_LT(growth(0.5), 11);
   EXPECT_LT(cost(rod(4000)), 8 * cost(rod(1000)));
+}
+
+// ------------------------------------------------------------------------------- rays and parts
+
+void add_box(Polyhedron& surface, const Position& low, const Position& high) {
+  const auto first = static_cast<Index>(surface.vertices.size());
+  for (std::size_t k = 0; k < 8; ++k) {
+    surface.vertices.push_back(
+        {k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]});
+  }
+  constexpr Triangle kTriangles[] = {{3, 1, 0}, {2, 3, 0}, {5, 7, 4}, {7, 6, 4},
+                                     {1, 5, 0}, {5, 4, 0}, {7, 3, 2}, {6, 7, 2},
+                                     {6, 2, 0}, {4, 6, 0}, {7, 5, 1}, {3, 7, 1}};
+  for (const auto& [a, b, c] : kTriangles) {
+    surface.triangles.push_back({a + first, b + first, c + first});
+  }
+}
+
+// Of each point: 1 inside, 0 outside, -1 on the surface.
+std::vector<int> insides(const Polyhedron& surface, const std::vector<Position>& asked) {
+  std::vector<Position> positions = surface.vertices;
+  positions.insert(positions.end(), asked.begin(), asked.end());
+  ExactPoints points;
+  EXPECT_EQ(points.assign(positions), "");
+  InputSurface input;
+  EXPECT_EQ(input.assign(surface, points), "");
+  std::vector<int> found;
+  for (std::size_t n = 0; n < asked.size(); ++n) {
+    const auto v = static_cast<Index>(surface.vertices.size() + n);
+    found.push_back(input.inside(points, {&v, 1}));
+  }
+  return found;
+}
+
+// Boxes on each other, within each other and beside each other; what is inside is known by heart.
+TEST(RayParts, ArePassedOverWhereTheyCountForNothing) {
+  Polyhedron surface;
+  for (int i = 0; i < 5; ++i) add_box(surface, {0, 0, 10.0 * i}, {9, 9, 10.0 * i + 9});
+  add_box(surface, {1, 1, 11}, {8, 8, 18});   // a hollow
+  add_box(surface, {2, 2, 12}, {7, 7, 17});   // with something in it
+  add_box(surface, {20, 0, 0}, {29, 9, 49});  // beside them all
+  const std::vector<std::pair<Position, int>> known = {
+      {{4, 5, 4.5}, 1}, {{4, 5, 9.5}, 0},  {{4, 5, 10.5}, 1}, {{4, 5, 11.5}, 0},
+      {{4, 5, 14}, 1},  {{4, 5, 17.5}, 0}, {{4, 5, 18.5}, 1}, {{4, 5, 19.5}, 0},
+      {{4, 5, 48}, 1},  {{4, 5, 49.5}, 0}, {{4, 5, -1}, 0},   {{12, 5, 14}, 0},
+      {{25, 5, 14}, 1}, {{4, 5, 9}, -1},   {{4, 5, 10}, -1},  {{4, 5, 17}, -1},
+      {{4, 5, 49}, -1}, {{0.5, 1, 12}, 1}, {{8.5, 1, 12}, 1}, {{7.5, 5, 12}, 0}};
+  std::vector<Position> asked;
+  for (const auto& [p, inside] : known) asked.push_back(p);
+  const std::vector<int> found = insides(surface, asked);
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    EXPECT_EQ(found[n], known[n].second) << known[n].first[0] << " " << known[n].first[2];
+  }
+}
+
+TEST(RayParts, CountIfTheyAreOpen) {
+  ExactPoints points;
+  ASSERT_EQ(points.assign(std::vector<Position>{
+                {0, 0, 5}, {4, 0, 5}, {0, 4, 5}, {0, 0, 7}, {4, 0, 7}, {0, 4, 7}, {1, 1, 0}}),
+            "");
+  const Index v = 6;
+  const RayCrossings one = RayTarget(points, {{0, 1, 2}}).above({&v, 1});
+  EXPECT_EQ(one.count, 1U);
+  EXPECT_EQ(one.winding, 1);
+  const RayCrossings two = RayTarget(points, {{0, 1, 2}, {3, 5, 4}}).above({&v, 1});
+  EXPECT_EQ(two.count, 2U);
+  EXPECT_EQ(two.winding, 0);
+  // Closed, but not turned consistently: the same triangle twice.
+  const RayCrossings twice = RayTarget(points, {{0, 1, 2}, {0, 1, 2}}).above({&v, 1});
+  EXPECT_EQ(twice.count, 2U);
+  EXPECT_EQ(twice.winding, 2);
+}
+
+// Four times as many took 16 times as long.
+TEST(RayParts, TakeNearlyLinearTimeInAStack) {
+  const auto cost = [](int n) {
+    Polyhedron surface;
+    std::vector<Position> asked;
+    for (int i = 0; i < n; ++i) {
+      add_box(surface, {0, 0, 10.0 * i}, {9, 9, 10.0 * i + 9});
+      asked.push_back({4, 5, 10.0 * i + 4.5});
+    }
+    return steps_of([&] {
+      for (const int inside : insides(surface, asked)) EXPECT_EQ(inside, 1);
+    });
+  };
+  EXPECT_LT(cost(1000), 8 * cost(250));
 }
 
 }  // namespace
