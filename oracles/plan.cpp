@@ -87,10 +87,7 @@ AngleScope Step::scope() const {
 void Step::add(OracleReport oracle, const std::string& prefix) {
   oracle.name = prefix + oracle.name;
   // Numbers of the record's own mesh are no places in the file.
-  for (Spot& spot : oracle.spots) {
-    const bool of_mesh = spot.site && spot.site->kind < Site::Kind::input_vertex;
-    if (!prefix.empty() && of_mesh) spot.site.reset();
-  }
+  if (!prefix.empty()) oracle.forget_sites(Site::Kind::vertex, Site::Kind::listed_triangle);
   if (options_.progress) {
     const std::lock_guard<std::mutex> lock(shared_.progress);
     options_.progress(oracle);

@@ -101,9 +101,10 @@ struct OracleReport {
     sites.clear();
     points.clear();
   }
-  // What has other numbers than those of the files.
-  void forget_sites(Site::Kind first = {}) {
-    const auto is_other = [&](const Site& site) { return site.kind >= first; };
+  // What has other numbers than those of the files, by its kinds.
+  void forget_sites(Site::Kind first = Site::Kind::vertex,
+                    Site::Kind last = Site::Kind::input_triangle) {
+    const auto is_other = [&](const Site& site) { return site.kind >= first && site.kind <= last; };
     std::erase_if(sites, is_other);
     for (Spot& spot : spots) {
       if (spot.site && is_other(*spot.site)) spot.site.reset();

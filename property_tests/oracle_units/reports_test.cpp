@@ -73,6 +73,11 @@ TEST(Reports, PutPlacesBesideFindings) {
   EXPECT_EQ(places(),
             R"([null,{"kind":"input edges","numbers":[3,7]},{"at":[0.5,-1.0,2.0]},)"
             R"({"kind":"tetrahedra","numbers":[4]},{"kind":"input triangles","numbers":[1]}])");
+  report.oracles[0].forget_sites(Site::Kind::vertex, Site::Kind::listed_triangle);
+  EXPECT_EQ(places(), R"([null,{"kind":"input edges","numbers":[3,7]},{"at":[0.5,-1.0,2.0]},null,)"
+                      R"({"kind":"input triangles","numbers":[1]}])");
+  EXPECT_EQ(report.oracles[0].sites.size(), 1U);
+  report.oracles = {oracle};
   report.oracles[0].forget_sites(Site::Kind::input_vertex);
   EXPECT_EQ(places(),
             R"([null,null,{"at":[0.5,-1.0,2.0]},{"kind":"tetrahedra","numbers":[4]},null])");
