@@ -94,7 +94,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage,
   if (!refusal.empty()) return "oracles refuse: " + refusal;
   if (const oracles::OracleReport* improvement = report.find("improvement")) {
     if (improvement->figure(oracles::kByPlace)) {
-      (result.statistics.default_size > 0 ? explained_with_size : explained_by_place).take();
+      (result.statistics.chosen_size > 0 ? explained_with_size : explained_by_place).take();
     }
   }
   bool violated = false;
@@ -256,22 +256,20 @@ Options options_for(const Surface& surface) {
 
 // Without the options that ask for many vertices on any surface, and with less of the surface in
 // the refinement.
-Options coarser(Options options, std::uint64_t budget) {
-  options.budget = budget;
-  options.max_edge = options.chamfer_radius = 0;
+Options coarser(Options options) {
+  options.max_edge = options.chamfer_radius = options.size = 0;
   options.size_field.clear();
   options.gabriel = false;
   options.region = delmesher::Region::interior;
-  options.tau = std::max(options.tau, 1e-2);
+  options.tau = 0.1;
   return options;
 }
 
-// A surface that would need more vertices than the limit is meshed with a budget of tetrahedra
-// instead, of which there are several per vertex.
+// A surface that would need more vertices than the limit is meshed with coarser options instead.
 Result meshed(const Surface& surface, Options& options) {
   Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.limit != delmesher::Limit::size) return result;
-  options = coarser(options, 2 * kMostVertices);
+  options = coarser(options);
   return delmesher::tetrahedralize(surface, options);
 }
 
@@ -332,7 +330,7 @@ Finding pipeline_holds(const Surface& surface) {
   if (result.mesh.vertices.size() <= kFewVertices) {
     return same_when_scaled(surface, result, options, exponent);
   }
-  options = coarser(options, kFewVertices);
+  options = coarser(options);
   options.max_vertices = kFewVertices;
   const Result few = delmesher::tetrahedralize(surface, options);
   if (few.status.ok()) return same_when_scaled(surface, few, options, exponent);

@@ -26,6 +26,7 @@
 #include "mesher/policies/budget.h"
 #include "mesher/policies/default_size.h"
 #include "mesher/policies/fallback.h"
+#include "mesher/policies/filling.h"
 #include "mesher/policies/plain.h"
 #include "mesher/policies/planar_runs.h"
 #include "mesher/policies/thinned_rounding.h"
@@ -517,6 +518,7 @@ Status mesh_kept_surface(Given& given, Session& s, Recorder& recorder,
   if (merged != nullptr) {
     if (Status status = keeping.choose(*merged, *regions); !status.ok()) return status;
   }
+  if (s.bounds_edges()) Budget(s.options).bound(s);  // else all may be counted and told
   keeping.fill_and_improve();
   keeping.drop_outside();
   recorder.left_out(keeping.bare);
@@ -553,7 +555,8 @@ Result run(const Pipeline& pipeline, const Options& options, const LocalFrame& f
       return {StatusCode::invalid_options, defect};
     }
     session.sizes = SizeField(options.size_field, options.size_growth);
-    return pipeline(session, recorder);
+    const Status status = pipeline(session, recorder);
+    return status.ok() ? Budget::check(options, result) : status;
   });
   recorder.finish();
   return result;
@@ -590,10 +593,11 @@ struct Runs {
   Given given;
   const LocalFrame& frame;
   PlanarRuns planes;
+  bool may_keep;
   Result best;
 
   bool good_enough() const { return !is_too_heavy() && PlanarRuns::good_enough(best); }
-  bool is_too_heavy() const { return planes.is_too_heavy(best); }
+  bool is_too_heavy() const { return may_keep && planes.is_too_heavy(best); }
 
   Result run_with(Planes how, const Options& options) {
     return run([&](Session& s, Recorder& recorder) { return mesh_with(how, given, s, recorder); },
@@ -617,8 +621,11 @@ constexpr Step<Runs> kRuns[] = {
      [](Runs& r) { r.run_again(Planes::none); }},
 };
 
-Result best_of_runs(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  Runs runs{{surface}, frame, PlanarRuns(options), {}};
+Result best_of_runs(const Surface& surface, const Options& given, const LocalFrame& frame,
+                    bool may_keep = true) {
+  Options options = given;
+  options.surface = surface_choice(given);
+  Runs runs{{surface}, frame, PlanarRuns(options), may_keep, {}};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
   RungCounts taken;
@@ -627,49 +634,87 @@ Result best_of_runs(const Surface& surface, const Options& options, const LocalF
   return std::move(runs.best);
 }
 
-// Once more, with a size, if the mesh is too coarse without.
+// More runs, with sizes: if the mesh is too coarse without, or has fewer tetrahedra than it may.
 struct Sizing {
   using Clock = std::chrono::steady_clock;
 
   const Surface& surface;
   const LocalFrame& frame;
-  Options options;
+  const Options& options;
   const Clock::time_point start = Clock::now();
   Result best{};
   DefaultSize chosen{};
+  std::optional<Filling> filling{};
 
-  bool good_enough() const { return chosen.size == 0; }
+  bool good_enough() const { return chosen.size == 0 && (!filling || filling->is_done()); }
+  bool is_kept() const { return best.statistics.ladder[Rung::keep_surface] > 0; }
 
   void attempt() {
-    best = best_of_runs(surface, options, frame);
+    best = options.surface == SurfaceChoice::keep ? run_kept(surface, options, frame)
+                                                  : best_of_runs(surface, options, frame);
     if (may_choose_size(options) && best.status.ok()) chosen = default_size(best);
+    if (Filling::is_wanted(options, best)) filling.emplace(options, best);
+  }
+  Result run_with(double size, std::uint64_t most_vertices) {
+    Options sized = options;
+    sized.max_edge = kMostOfSize * size;
+    sized.max_vertices = most_vertices;
+    sized.time_limit_seconds = seconds_left();
+    // What is not too heavy without a size is not to be kept with one.
+    const bool keeps = options.surface == SurfaceChoice::keep || (filling && is_kept());
+    Result result =
+        keeps ? run_kept(surface, sized, frame) : best_of_runs(surface, sized, frame, is_kept());
+    Statistics& s = result.statistics;
+    if (filling) s.ladder[Rung::keep_surface] = best.statistics.ladder[Rung::keep_surface];
+    if (keeps) s.predicted_tetrahedra = best.statistics.predicted_tetrahedra;
+    for (std::size_t i = 0; i < kPhaseCount; ++i) {
+      best.statistics.phase_seconds[i] += s.phase_seconds[i];
+      s.phase_seconds[i] = best.statistics.phase_seconds[i];
+    }
+    return result;
+  }
+  void take(Result sized, double size) {
+    sized.statistics.tetrahedra_without_size = best.statistics.chosen_size > 0
+                                                   ? best.statistics.tetrahedra_without_size
+                                                   : best.mesh.tetrahedra.size();
+    sized.statistics.chosen_size = size;
+    best = std::move(sized);
   }
   void take_size() {
     const std::uint64_t asked = options.max_vertices;
     const bool bounded = asked == 0 || chosen.most_vertices < asked;
-    options.max_edge = kMostOfSize * chosen.size;
-    options.max_vertices = bounded ? chosen.most_vertices : asked;
-    options.time_limit_seconds = seconds_left();
-    Result sized = best_of_runs(surface, options, frame);
+    Result sized = run_with(chosen.size, bounded ? chosen.most_vertices : asked);
     const Status& status = sized.status;
     const bool is_far_more = status.limit == Limit::size && bounded;
     const std::string why = is_far_more
                                 ? "more than " + std::to_string(chosen.most_vertices) + " vertices"
                             : status.ok() ? why_not(sized, best)
                                           : status.message;
-    const bool given_up =
-        is_far_more || status.limit == Limit::precision || (status.ok() && !why.empty());
-    for (std::size_t i = 0; i < kPhaseCount; ++i) {
-      double &first = best.statistics.phase_seconds[i], &second = sized.statistics.phase_seconds[i];
-      first = second = first + second;
-    }
-    if (given_up) {
+    if (status.ok() ? !why.empty() : is_far_more || is_of_the_mesh(status.limit)) {
       best.warnings.push_back("coarse for a solver, but with a size: " + why);
+    } else {
+      take(std::move(sized), chosen.size);
+    }
+  }
+  void fill() {
+    const double size = filling->size();
+    Result sized = run_with(size, options.max_vertices);
+    const Status& status = sized.status;
+    const std::uint64_t made = sized.statistics.final.tetrahedra;
+    if (status.ok() ? PlanarRuns::is_worse(sized, best) : is_of_the_mesh(status.limit)) {
+      filling->is_too_much(static_cast<double>(made));
       return;
     }
-    sized.statistics.default_size = chosen.size;
-    sized.statistics.tetrahedra_without_size = best.mesh.tetrahedra.size();
-    best = std::move(sized);
+    if (status.ok()) {
+      filling->fits(static_cast<double>(made));
+    } else {
+      filling.reset();
+    }
+    if (!status.ok() || made > best.mesh.tetrahedra.size()) take(std::move(sized), size);
+  }
+  // Not one that the caller has set.
+  static bool is_of_the_mesh(Limit limit) {
+    return limit == Limit::precision || limit == Limit::budget;
   }
   double seconds_left() const {
     if (options.time_limit_seconds == 0) return 0;
@@ -679,12 +724,14 @@ struct Sizing {
 };
 
 constexpr Step<Sizing> kSizing[] = {
-    {Rung::default_size, [](const Sizing&) { return true; }, [](Sizing& s) { s.take_size(); }},
+    {Rung::default_size, [](const Sizing& s) { return s.chosen.size > 0; },
+     [](Sizing& s) { s.take_size(); }},
+    {Rung::fill_budget, [](const Sizing& s) { return s.filling.has_value(); },
+     [](Sizing& s) { s.fill(); }},
 };
 
-Result run_mesh(const Surface& surface, const Options& given, const LocalFrame& frame) {
-  Sizing sizing{surface, frame, given};
-  sizing.options.surface = surface_choice(given);
+Result run_mesh(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  Sizing sizing{surface, frame, options};
   sizing.attempt();
   RungCounts taken;
   climb(sizing, kSizing, taken);
@@ -736,9 +783,7 @@ Result tetrahedralize(const Surface& surface, const Options& given) {
   Options options = given;
   options.max_edge = bound_on_edges(given);
   if (options.regions != Regions::solid) return in_ordinary_units(surface, options, run_complex);
-  Task& task =
-      *(options.surface == SurfaceChoice::keep ? &run_within<run_kept> : &run_within<run_mesh>);
-  return in_ordinary_units(surface, options, task);
+  return in_ordinary_units(surface, options, run_within<run_mesh>);
 }
 
 Result constrained_delaunay(const Surface& surface, const CdtOptions& given) {

@@ -54,8 +54,11 @@ void FileStep::check_contents() {
     }
     add(std::move(nodes));
   }
-  if (exact_ == nullptr && (options_.promised.max_vertices > 0 || mesh_.planar_within > 0)) {
-    add(check_written(options_.promised, mesh_.vertices.size(), mesh_.planar_within));
+  const Promise& promised = options_.promised;
+  const bool bounds_numbers = promised.max_vertices > 0 || promised.budget > 0;
+  if (exact_ == nullptr && (bounds_numbers || mesh_.planar_within > 0)) {
+    add(check_written(promised, mesh_.vertices.size(), mesh_.tetrahedra.size(),
+                      mesh_.planar_within));
   }
 }
 

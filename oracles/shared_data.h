@@ -107,8 +107,7 @@ class SharedData {
             &refined_.complex,
             &refined_.neighbours,
             &promise_,
-            static_cast<Index>(input_.vertices.size()),
-            sidecar_.diagonal};
+            static_cast<Index>(input_.vertices.size())};
   }
   // Only for a usable sidecar.
   const Refined& refined() {

@@ -97,28 +97,16 @@ std::optional<double> stated_planar(const Frame& frame) {
 }
 
 // What the record says and no oracle can decide, where it gives less than was asked for.
-void name_what_is_trusted(const Frame& frame, bool may_keep, std::size_t tetrahedra,
-                          VerifyReport& report) {
+void name_what_is_trusted(const Frame& frame, bool may_keep, VerifyReport& report) {
   const Promise& promise = frame.options.promised;
-  const auto add = [&](const std::string& option, const char* format, double value) {
-    char text[100];
-    std::snprintf(text, sizeof text, format, value);
-    report.unproven.push_back(option + text);
-  };
   if (may_keep && promise.keep) {
     report.unproven.emplace_back("that bounded angles were too heavy (the surface is kept)");
   }
-  if (promise.task != Task::mesh) return;
-  if (promise.delta > promise.guaranteed_delta()) {
-    add("--delta", " above %.6g degrees", promise.guaranteed_delta());
+  if (promise.task == Task::mesh && promise.delta > promise.guaranteed_delta()) {
+    char text[100];
+    std::snprintf(text, sizeof text, "--delta above %.6g degrees", promise.guaranteed_delta());
+    report.unproven.emplace_back(text);
   }
-  if (promise.budget == 0) return;
-  const OracleReport* told = report.find("promise");
-  if (const auto tau = told == nullptr ? std::nullopt : told->figure(kTauForBudget)) {
-    add("--budget", " (that it needs a tau of %.6g)", *tau);
-  }
-  const auto count = static_cast<double>(tetrahedra);
-  if (count > promise.budget) add("--budget", " (there are %.0f tetrahedra)", count);
 }
 
 // In doubles: how long edges may be need not be exact.
@@ -223,7 +211,6 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   Promise& promised = frame.options.promised;
   const bool may_keep = promised.may_keep;
   allow_sizes(*frame.input, mesh, promised);
-  const std::size_t tetrahedra = mesh.tetrahedra.size();  // which may be dropped
   if (exact != nullptr) promised.settle(*exact);
   if (promised.keep && frame.options.stage == Stage::both) {
     frame.options.stage = Stage::final;
@@ -278,7 +265,7 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
   if (exact == nullptr) {
     std::ranges::copy(options.promised.of_record, std::back_inserter(report.unproven));
   } else {
-    name_what_is_trusted(frame, may_keep, tetrahedra, report);
+    name_what_is_trusted(frame, may_keep, report);
   }
   if (options.promised.names) report.unproven.emplace_back(kOtherNames);
 #ifndef TETPROOF_SECOND_OPINIONS

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <string>
 
 #include "mesher/delmesher.h"
 #include "oracles/verify.h"
@@ -29,34 +31,99 @@ Surface thin(double gap, bool plate) {
   return surface;
 }
 
-TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
-  constexpr std::uint64_t kBudget = 20000;
-  for (const delmesher::Region region : {delmesher::Region::interior, delmesher::Region::hull}) {
-    for (const double gap : {1e-3, 1e-4, 1e-5}) {
-      for (const bool plate : {true, false}) {
-        SCOPED_TRACE(gap);
-        const Surface surface = thin(gap, plate);
-        Options options = samples::split_surface();
-        options.budget = kBudget;
-        options.region = region;
-        options.want_exact = true;
-        const Result result = delmesher::tetrahedralize(surface, options);
-        ASSERT_TRUE(result.status.ok()) << result.status.message;
-        EXPECT_LE(result.statistics.predicted_tetrahedra, kBudget);
-        EXPECT_LE(result.mesh.tetrahedra.size(), kBudget);
-        // The gap is filtered; the written mesh conforms to it all the same.
-        EXPECT_GT(result.statistics.tau, gap / 2);
-        EXPECT_GT(result.statistics.dropped_triangles, 0U);
-        oracles::VerifyReport report;
-        EXPECT_EQ(
-            oracles::verify(
+void expect_verified(const Surface& surface, const Options& options, const Result& result) {
+  oracles::VerifyReport report;
+  EXPECT_EQ(oracles::verify(
                 samples::to_polyhedron(surface), samples::to_mesh(result.mesh), &result.exact,
                 {.stage = oracles::Stage::both, .promised = oracles::promise_of(options)}, report),
             "");
-        EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+}
+
+// The gap is left out of the refinement, or the surface is kept; the written mesh conforms all the
+// same.
+TEST(Budget, IsFilledInThinPlatesAndGaps) {
+  for (const std::uint64_t budget : {2000U, 10000U}) {
+    for (const double gap : {1e-2, 1e-3, 1e-5}) {
+      for (const bool plate : {true, false}) {
+        SCOPED_TRACE(testing::Message() << budget << ' ' << gap << ' ' << plate);
+        const Surface surface = thin(gap, plate);
+        Options options;
+        options.budget = budget;
+        options.want_exact = true;
+        const Result result = delmesher::tetrahedralize(surface, options);
+        ASSERT_TRUE(result.status.ok()) << result.status.message;
+        EXPECT_LE(result.mesh.tetrahedra.size(), budget);
+        // The edges of regular facets are all halved at the same size.
+        EXPECT_GE(result.mesh.tetrahedra.size(), budget / 2);
+        expect_verified(surface, options, result);
       }
     }
   }
+}
+
+TEST(Budget, IsNearlyUsedUp) {
+  for (const double length : {1.0, 3.0, 10.0}) {
+    for (const std::uint64_t budget : {1000U, 4000U, 16000U}) {
+      SCOPED_TRACE(testing::Message() << length << ' ' << budget);
+      Surface surface;
+      samples::add_box(surface, {0, 0, 0}, {length, 1, 1});
+      Options options;
+      options.budget = budget;
+      const Result result = delmesher::tetrahedralize(surface, options);
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      EXPECT_LE(result.mesh.tetrahedra.size(), budget);
+      EXPECT_GE(result.mesh.tetrahedra.size(), budget - budget / 10);
+    }
+  }
+}
+
+// The surface alone takes as many as the message says, no fewer.
+TEST(Budget, ThatIsTooSmallIsRefusedWithTheNumberThatFits) {
+  const Surface surface = thin(1e-2, true);
+  Options options;
+  options.budget = 3;
+  const Result refused = delmesher::tetrahedralize(surface, options);
+  EXPECT_EQ(refused.status.limit, delmesher::Limit::budget);
+  std::smatch needs;
+  ASSERT_TRUE(std::regex_search(refused.status.message, needs, std::regex("has ([0-9]+) tetra")))
+      << refused.status.message;
+  options.budget = std::stoull(needs[1]) - 1;
+  EXPECT_FALSE(delmesher::tetrahedralize(surface, options).status.ok());
+  ++options.budget;
+  const Result fits = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(fits.status.ok()) << fits.status.message;
+  EXPECT_EQ(fits.mesh.tetrahedra.size(), options.budget);
+}
+
+// Every triangle is one face still; only the volume has more vertices.
+TEST(Budget, KeepsASurfaceThatIsToBeKept) {
+  const Surface surface = thin(1e-2, false);
+  Options options;
+  options.surface = delmesher::SurfaceChoice::keep;
+  options.budget = 2000;
+  options.want_exact = true;
+  const Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.mesh.boundary.size(), surface.triangles.size());
+  EXPECT_LE(result.mesh.tetrahedra.size(), 2000U);
+  expect_verified(surface, options, result);
+}
+
+// Sizes that are asked for stay: nothing is filled, and nothing is dropped.
+TEST(Budget, LeavesASizeThatIsAskedFor) {
+  Surface surface;
+  samples::add_box(surface, {0, 0, 0}, {1, 1, 1});
+  Options options;
+  options.size = 0.25;
+  const Result asked = delmesher::tetrahedralize(surface, options);
+  options.budget = 100000;
+  const Result bounded = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(bounded.status.ok());
+  EXPECT_EQ(asked.mesh.vertices, bounded.mesh.vertices);
+  EXPECT_EQ(asked.mesh.tetrahedra, bounded.mesh.tetrahedra);
+  options.budget = asked.mesh.tetrahedra.size() - 1;
+  EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.limit, delmesher::Limit::budget);
 }
 
 // Without a budget the plate is filled with tetrahedra of its own thickness: a hundred times as
@@ -79,13 +146,16 @@ TEST(Budget, PredictionsGrowAsTheIntegralSays) {
 TEST(Budget, WhatCannotFitIsRefusedWithAReason) {
   Surface surface;
   samples::add_box(surface, {0, 0, 0}, {1, 1, 1});
-  Options options = samples::split_surface();
-  options.max_edge = 0.01;  // no filter helps against this
-  options.budget = 1000;
-  const Result result = delmesher::tetrahedralize(surface, options);
-  EXPECT_EQ(result.status.code, StatusCode::limit_reached);
-  EXPECT_NE(result.status.message.find("budget of 1000"), std::string::npos);
-  EXPECT_TRUE(result.mesh.tetrahedra.empty());
+  for (const bool split : {true, false}) {
+    Options options = split ? samples::split_surface() : Options();
+    options.max_edge = 0.01;
+    options.budget = 1000;
+    const Result result = delmesher::tetrahedralize(surface, options);
+    EXPECT_EQ(result.status.code, StatusCode::limit_reached);
+    EXPECT_EQ(result.status.limit, delmesher::Limit::budget);
+    EXPECT_NE(result.status.message.find("budget of 1000"), std::string::npos);
+    EXPECT_TRUE(result.mesh.tetrahedra.empty());
+  }
 }
 
 TEST(Budget, PredictionDoesNotDependOnTheScale) {

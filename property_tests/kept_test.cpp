@@ -167,10 +167,9 @@ TEST(KeptSurface, TakesNoOptionThatDoesNothing) {
   const auto status = refused([](Options& o) { o.tau = 0; });
   EXPECT_EQ(status.code, StatusCode::invalid_options);
   EXPECT_NE(status.message.find("tau"), std::string::npos) << status.message;
-  for (const auto change :
-       {+[](Options& o) { o.region = delmesher::Region::hull; }, +[](Options& o) { o.budget = 10; },
-        +[](Options& o) { o.as_paper.link = true; },
-        +[](Options& o) { o.surface = SurfaceChoice::split; }}) {
+  for (const auto change : {+[](Options& o) { o.region = delmesher::Region::hull; },
+                            +[](Options& o) { o.as_paper.link = true; },
+                            +[](Options& o) { o.surface = SurfaceChoice::split; }}) {
     EXPECT_EQ(refused(change).code, StatusCode::invalid_options);
   }
 }
@@ -313,7 +312,7 @@ TEST(AutomaticSurface, IsKeptBeforeThereAreChamfersWhereTheyAreBoundToTakeMany) 
 
 TEST(AutomaticSurface, IsSplitForOptionsThatNeedIt) {
   for (const auto change : {+[](Options& o) { o.delta = 10; }, +[](Options& o) { o.tau = 1e-3; },
-                            +[](Options& o) { o.budget = 1000000; }}) {
+                            +[](Options& o) { o.acute = 70; }}) {
     Options options = automatic();
     change(options);
     const Result result = delmesher::tetrahedralize(plate(), options);

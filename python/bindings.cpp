@@ -220,7 +220,8 @@ py::dict seconds_of(const std::array<double, kPhaseCount>& seconds) {
 }
 
 void put_status(py::dict& d, const Status& status, const std::vector<std::string>& warnings) {
-  static constexpr const char* kLimits[] = {"none", "size", "time", "memory", "precision"};
+  static constexpr const char* kLimits[] = {"none",   "size",      "time",
+                                            "memory", "precision", "budget"};
   static constexpr const char* kCodes[] = {
       "ok",          "invalid_options", "invalid_surface", "limit_reached",
       "interrupted", "internal_error",  "invalid_mesh"};
@@ -250,7 +251,7 @@ py::dict dict_of(Result&& result) {
   stats["final"] = statistics_of(s.final);
   stats["seconds"] = seconds_of(s.phase_seconds);
   stats["bbox_diagonal"] = s.bbox_diagonal;
-  stats["default_size"] = s.default_size;
+  stats["chosen_size"] = s.chosen_size;
   stats["tetrahedra_without_size"] = s.tetrahedra_without_size;
   stats["facets"] = s.facets;
   stats["acute_vertices"] = s.acute_vertices;

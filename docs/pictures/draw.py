@@ -181,7 +181,7 @@ def run(delmesher, *words):
 GEAR = (0, 0, 0.19), (0.9, -3, 1.7), 0.86  # the camera
 GUIDES = {  # what makes the two meshes of each picture
     "sizes": ("--max-edge 0.15", "--max-edge 0.15 --size-field sizes.txt"),
-    "budgets": ("--surface split", "--budget 3000"),
+    "budgets": ("--surface split", "--budget 10000"),
     "surface": ("--surface keep", "--surface split"),
     "planar": ("--surface split --planar auto", "--surface split --planar 1e-9"),
     "tolerance": ("--surface keep", "--tolerance 5e-3d"),

@@ -66,13 +66,13 @@ void Control::poll(std::uint64_t vertices, double done) {
 }
 
 void Control::poll_now(std::uint64_t vertices, double done) {
-  const std::uint64_t most =
-      limits_.max_vertices == 0 ? allowed_ : std::min(allowed_, limits_.max_vertices);
-  if (vertices > most) {
-    throw Stopped{{StatusCode::limit_reached,
-                   "vertex limit reached (" + std::to_string(most) + "), see --max-vertices",
-                   Limit::size}};
+  if (limits_.max_vertices > 0 && vertices > limits_.max_vertices) {
+    throw Stopped{
+        {StatusCode::limit_reached,
+         "vertex limit reached (" + std::to_string(limits_.max_vertices) + "), see --max-vertices",
+         Limit::size}};
   }
+  if (vertices > allowed_) throw Stopped{beyond_};
   if (limits_.time_limit_seconds > 0 &&
       seconds_between(start_, Clock::now()) > limits_.time_limit_seconds) {
     throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit", Limit::time}};

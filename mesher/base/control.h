@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "mesher/base/namespaces.h"
 #include "mesher/delmesher/run.h"
@@ -38,8 +39,12 @@ class Control {
   // Consults clock and callback now, whatever the counter says.
   void poll_now(std::uint64_t vertices, double done);
 
-  // No more vertices from now on, whatever Limits::max_vertices says beyond that.
-  void allow(std::uint64_t vertices) { allowed_ = vertices; }
+  // No more vertices from now on, whatever Limits::max_vertices says beyond that: the run ends with
+  // this status.
+  void allow(std::uint64_t vertices, Status beyond) {
+    allowed_ = vertices;
+    beyond_ = std::move(beyond);
+  }
 
   // Reported with the progress from now on.
   void predict(double tetrahedra) { predicted_ = tetrahedra; }
@@ -63,6 +68,7 @@ class Control {
   std::uint32_t calls_ = 0;
   double predicted_ = 0;
   std::uint64_t allowed_ = std::numeric_limits<std::uint64_t>::max();
+  Status beyond_;
   std::array<double, kPhaseCount> seconds_{};
 };
 

@@ -218,9 +218,11 @@ std::string quality_text(const Result& result) {
          "; mean shape " + number(s.mean_gamma, 2) + " (1 is regular)";
 }
 
-std::string size_text(const Statistics& s) {
-  if (s.default_size == 0) return "";
-  return "; edges of " + number(s.default_size, 0) + " by default, because there are only " +
+std::string size_text(const Statistics& s, bool for_budget) {
+  if (s.chosen_size == 0) return "";
+  return "; edges of " + number(s.chosen_size, 0) +
+         (for_budget ? " to fill the budget, because there are "
+                     : " by default, because there are only ") +
          std::to_string(s.tetrahedra_without_size) + " tetrahedra with --size none";
 }
 

@@ -18,7 +18,8 @@ namespace delmesher::cli {
 namespace {
 
 const char* limit_name(Limit limit) {
-  static constexpr const char* kName[] = {"none", "vertices", "time", "memory", "precision"};
+  static constexpr const char* kName[] = {"none",   "vertices",  "time",
+                                          "memory", "precision", "budget"};
   return kName[static_cast<std::size_t>(limit)];
 }
 
@@ -248,8 +249,8 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"spared", s.diagonals_spared},
                     {"given_up", s.planar_given_up},
                     {"limit", limit_name(s.planar_limit)}};
-  json["default_size"] = {{"size", s.default_size},
-                          {"tetrahedra_without", s.tetrahedra_without_size}};
+  json["chosen_size"] = {{"size", s.chosen_size},
+                         {"tetrahedra_without", s.tetrahedra_without_size}};
   json["remesh"] = {{"tolerance", s.tolerance}, {"triangles", s.remeshed_triangles}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
@@ -324,11 +325,12 @@ std::string remeshed_text(std::size_t given, std::size_t remeshed, double tolera
          ", within " + number_short(tolerance);
 }
 
-std::string kept_text(const std::string& file, const Statistics& s, bool bounds_edges) {
+std::string kept_text(const std::string& file, const Statistics& s, bool bounds_edges,
+                      std::uint64_t budget) {
+  const auto predicted = static_cast<std::uint64_t>(s.predicted_tetrahedra);
   return file + ": the surface is kept" + (bounds_edges ? " but for edges that are too long" : "") +
          "; bounded angles (--surface split) would take more than " +
-         std::to_string(static_cast<std::uint64_t>(s.predicted_tetrahedra)) +
-         " tetrahedra, as predicted";
+         (budget > 0 ? "the budget" : std::to_string(predicted) + " tetrahedra, as predicted");
 }
 
 namespace {

@@ -34,7 +34,8 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
 // "970 triangles in place of 7000, within 0.01"
 std::string remeshed_text(std::size_t given, std::size_t remeshed, double tolerance);
 // The line about a surface that is kept because bounded angles would be heavy.
-std::string kept_text(const std::string& file, const Statistics& s, bool bounds_edges);
+std::string kept_text(const std::string& file, const Statistics& s, bool bounds_edges,
+                      std::uint64_t budget);
 
 // The names of regions: of the solids that they lie in.
 io::LabelNames region_names(const std::vector<MeshRegion>& regions, const io::LabelNames& labels);

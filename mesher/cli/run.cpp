@@ -173,10 +173,11 @@ int Runner::mesh() {
     remark(command_.input + ": " +
            remeshed_text(surface_.triangles.size(), s.remeshed_triangles, s.tolerance));
   }
+  const std::uint64_t budget = options == nullptr ? 0 : options->budget;
   if (s.ladder[Rung::keep_surface] > 0) {
     const bool bounds_edges = options != nullptr && (bound_on_edges(*options) > 0 ||
-                                                     !sizes_.empty() || s.default_size > 0);
-    remark(kept_text(command_.input, s, bounds_edges));
+                                                     !sizes_.empty() || s.chosen_size > 0);
+    remark(kept_text(command_.input, s, bounds_edges, budget));
   }
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles, and a kept surface none of faces.
@@ -197,7 +198,7 @@ int Runner::mesh() {
                    return conclude(s.phase_seconds,
                                    {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
                                     s.rounding_inverted, s.rounding_flat, "tetrahedra",
-                                    quality_text(result) + size_text(s)});
+                                    quality_text(result) + size_text(s, budget > 0)});
                  }});
 }
 

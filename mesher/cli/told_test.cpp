@@ -269,7 +269,7 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
-      "final planar default_size remesh filter prediction chamfer guarantee ladder limits steiner "
+      "final planar chosen_size remesh filter prediction chamfer guarantee ladder limits steiner "
       "rounding "
       "predicates ");
   EXPECT_EQ(keys(json["predicates"]), "filter support extended fixed exact symbolic ");
@@ -297,7 +297,7 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["ladder"]),
             "larger_tau chamfers_everywhere tetrahedrize_again "
             "other_orders untangle thin_out input_alone keep_surface back_to_given no_planes "
-            "default_size ");
+            "default_size fill_budget ");
   EXPECT_EQ(keys(json["limits"]), "refinement_capped cdt_restarts thinned ");
   EXPECT_EQ(keys(json["steiner"]),
             "on_segments on_facets in_volume in_final_mesh left_on_surface ");

@@ -10,7 +10,7 @@ namespace delmesher {
 // In the order in which the rungs are taken: those of a stage are complete before the next stage
 // begins, and the last ones repeat the run. What an attempt has to do to be good enough:
 enum class Rung : std::uint8_t {
-  // Filter and chamfering: the prediction keeps to the budget, or to what automatic allows.
+  // Filter and chamfering: no more tetrahedra are predicted than the budget or automatic allows.
   larger_tau,
   // Refinement: it ends.
   chamfers_everywhere,
@@ -27,10 +27,11 @@ enum class Rung : std::uint8_t {
   keep_surface,
   back_to_given,
   no_planes,
-  // The run: the mesh is not too coarse for a solver.
-  default_size
+  // The run: the mesh is not too coarse for a solver, or has nine tenths of its budget.
+  default_size,
+  fill_budget
 };
-inline constexpr std::size_t kRungCount = 11;
+inline constexpr std::size_t kRungCount = 12;
 
 // Each is taken as long as it applies and the attempt is not good enough, `at_most` times.
 struct RungRow {
@@ -43,8 +44,7 @@ struct RungRow {
 };
 
 inline constexpr std::array<RungRow, kRungCount> kLadder = {{
-    {"larger_tau", 14, "tau is below 0.05, or below that asked for with --surface auto",
-     "twice the tau, or that asked for: the filter drops more", "the surface",
+    {"larger_tau", 1, "--surface auto", "the tau asked for: the filter drops more", "the surface",
      "filter, chamfering"},
     {"chamfers_everywhere", 1, "", "chamfers up to 90 degrees, empty diametral balls", "tau",
      "filter, chamfering, refinement"},
@@ -65,6 +65,8 @@ inline constexpr std::array<RungRow, kRungCount> kLadder = {{
     {"no_planes", 1, "", "no planar facets", "nothing", "a run; tetrahedra as before"},
     {"default_size", 1, "--size auto", "edges of a tenth or twentieth of the diagonal", "nothing",
      "a run; more than twice the tetrahedra"},
+    {"fill_budget", 6, "--budget", "shorter edges, or longer ones than those that took too many",
+     "nothing", "a run"},
 }};
 
 // How often each rung was taken.

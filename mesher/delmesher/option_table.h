@@ -173,10 +173,13 @@ inline constexpr std::tuple kTable{
          .words = {{{"auto", kPlanarAuto}}}},
         &Options::planar, &CheckOptions::planar),
     Row({.name = "budget",
-         .help = "tetrahedra wanted at most: while more are predicted, the filter drops more",
+         .help =
+             "tetrahedra at most: with --size auto, edges are so short that at least nine tenths "
+             "of them are made",
          .bounds = {.high = 1e15},
          .zero_is_none = true,
-         .promised = true},
+         .promised = true,
+         .with_kept_surface = true},
         &Options::budget),
     Row({.name = "acute",
          .help = "chamfer corners below this angle",

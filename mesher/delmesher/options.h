@@ -99,9 +99,9 @@ struct Options : Limits {
   // left to the final step. 0 turns the filter off. With SurfaceChoice::automatic it is 1e-9 where
   // that takes few tetrahedra.
   double tau = 1e-4;
-  // Tetrahedra wanted at most: if more are predicted, tau is doubled until it fits. The final mesh
-  // conforms all the same. It may still be larger, because the prediction is within a factor of 3
-  // for nine models in ten only. 0: no budget.
+  // Tetrahedra at most: Limit::budget ends the run where there would be more, with
+  // SurfaceChoice::automatic even if the surface is kept. With kSizeAuto there are at least nine
+  // tenths of them, unless none of six lengths of edges makes so many. 0: any number.
   std::uint64_t budget = 0;
   // Corners with an angle below this are chamfered. The paper's proof needs 90.
   double acute = 60;
@@ -136,7 +136,7 @@ struct Options : Limits {
   // surface has shorter ones, or features that ask for them, edges are shorter. 0: any. kSizeAuto:
   // a tenth of the bounding box's diagonal, or down to a twentieth in parts as thin as that, where
   // this makes more than twice the tetrahedra of any, which are too few for a solver, and no other
-  // option says how many there shall be; else any.
+  // option says how many there shall be; with a budget what fills it; else any.
   double size = kSizeAuto;
   // Smaller edges in places: nowhere along an edge inside is it longer than size + size_growth *
   // distance, of any of these sources and its distance. Empty: no bound.

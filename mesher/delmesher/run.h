@@ -71,10 +71,11 @@ enum class StatusCode : std::uint8_t {
 
 enum class Limit : std::uint8_t {
   none,
-  size,      // Limits::max_vertices, a budget, or the range of indices
-  time,      // Limits::time_limit_seconds
-  memory,    // an allocation failed
-  precision  // features are too close to each other for doubles to express
+  size,       // Limits::max_vertices, or the range of indices
+  time,       // Limits::time_limit_seconds
+  memory,     // an allocation failed
+  precision,  // features are too close to each other for doubles to express
+  budget      // of tetrahedra: Options::budget
 };
 
 struct Status {

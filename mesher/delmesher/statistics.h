@@ -35,7 +35,7 @@ struct Statistics {
   std::array<double, kPhaseCount> phase_seconds{};
   double bbox_diagonal = 0;
   // Options::size, if it was chosen, and the tetrahedra without; else 0.
-  double default_size = 0;
+  double chosen_size = 0;
   std::uint64_t tetrahedra_without_size = 0;
   // With Options::tolerance: the length, and the triangles of the surface that was meshed.
   double tolerance = 0;
@@ -64,7 +64,7 @@ struct Statistics {
   // With SurfaceChoice::keep: vertices on the surface that are not of the input.
   std::uint64_t left_on_surface = 0;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
-  double tau = 0;                   // in force: Options::tau, or more for the budget
+  double tau = 0;                   // in force
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;
   std::uint64_t acute_vertices = 0, acute_edges = 0;
   double guaranteed_acute = 0;   // threshold in force

@@ -48,10 +48,9 @@ double kept_tetrahedra(const Session& session) {
   return tetrahedra;
 }
 
-// Every triangle that the filter drops comes back in the final step, with at least one and a half
-// tetrahedra.
+// Every triangle that the filter drops comes back in the final step, with at least one tetrahedron.
 double of_dropped(std::uint64_t triangles) {
-  return 1.5 * static_cast<double>(triangles);
+  return static_cast<double>(triangles);
 }
 
 double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, double enough,
@@ -64,45 +63,66 @@ double predicted_tetrahedra(const chamfer::ChamferedSurface& surface, double eno
                                     session.control);
 }
 
-std::string over_budget(double tau, double budget) {
-  char share[32];
-  std::snprintf(share, sizeof share, "%.2g", tau);
-  return "more tetrahedra are predicted than the budget of " +
-         std::to_string(static_cast<std::uint64_t>(budget)) + ", even if facets closer than " +
-         share + " of the diagonal wait for the last step";
+Stopped beyond(const std::string& why) {
+  return {{StatusCode::limit_reached, why, Limit::budget}};
+}
+
+std::string about(double tetrahedra) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", tetrahedra);
+  return text;
+}
+
+std::string budget_text(std::uint64_t budget) {
+  return "the budget of " + std::to_string(budget) + " tetrahedra";
 }
 
 }  // namespace
 
-// Of a surface that is not chamfered yet: nine tenths of what the kept facets take, and of ten
+Budget::Budget(const Options& options)
+    : is_automatic_(options.surface == SurfaceChoice::automatic),
+      budget_(options.budget),
+      tau_asked_(options.tau),
+      tau_(is_automatic_ ? kFinestTau : tau_asked_) {
+  if (budget_ > 0) want_at_most(static_cast<double>(budget_));
+}
+
+void Budget::want_at_most(double tetrahedra) {
+  // Predictions are within a factor of 3 for nine models in ten. Refined meshes have three vertices
+  // for four tetrahedra of the final one.
+  constexpr double kFarBeyond = 3, kVertices = 0.75, kSurelyMore = 8;
+  most_predicted_ = budget_ > 0 ? kSurelyMore * tetrahedra : tetrahedra;
+  most_vertices_ = kFarBeyond * kVertices * tetrahedra;
+}
+
+// Of a surface that is not chamfered yet: nine tenths of what the kept facets take, and of seven
 // tetrahedra for every corner beyond three at a vertex to be chamfered. On the 459 valid models of
 // the collection the prediction with chamfers is at least 1.2 times this. With few such corners it
 // would cost more than the chamfers, and is left out.
 double Budget::least(chamfer::FilteredSurface& surface, const Session& session) const {
-  constexpr double kShare = 0.9, kPerCorner = 10, kFew = 0.2;  // a triangle
+  constexpr double kShare = 0.9, kPerCorner = 7, kFew = 0.2;  // a triangle
   const SurfaceTopology& topology = session.surface.topology();
   const double corners = surface.crowded_corners();
   if (corners < kFew * static_cast<double>(topology.triangles.size())) return 0;
   const double others =
       of_dropped(surface.filter().dropped_triangles) + kShare * kPerCorner * corners;
   refine::PredictionOptions options = prediction_options(session);
-  options.enough = (budget_ - others) / kShare;
+  options.enough = (most_predicted_ - others) / kShare;
   return others + kShare * refine::predict_tetrahedra({}, topology, surface.filter().facet_kept,
                                                       session.points, options, session.control);
 }
 
 bool Budget::is_exceeded_at_least(chamfer::FilteredSurface& surface, const Session& session,
                                   Recorder& recorder) {
-  if (is_automatic_ && budget_ == 0) {
-    // Of that predicted, two thirds are left after the improvement, at the median.
-    constexpr double kTimes = 4, kLeft = 0.67, kSmall = 300;
-    budget_ = kTimes / kLeft * kept_tetrahedra(session) + kSmall;
+  if (is_automatic_ && most_predicted_ == 0) {
+    constexpr double kTimes = 4, kSmall = 201;
+    want_at_most(kTimes * kept_tetrahedra(session) + kSmall);
   }
-  if (budget_ == 0) return false;
+  if (most_predicted_ == 0) return false;
   const bool is_whole = surface.filter().dropped_triangles == 0;
   const double taken = is_whole && least_of_whole_ ? *least_of_whole_ : least(surface, session);
   if (is_whole) least_of_whole_ = taken;
-  if (taken <= budget_) return false;
+  if (taken <= most_predicted_) return false;
   predicted_ = taken;
   recorder.predicted(predicted_);
   return true;
@@ -113,31 +133,33 @@ void Budget::predict(chamfer::FilteredSurface& surface, const Session& session,
   const chamfer::ChamferedSurface& chamfered = surface.finish();
   if (times_chamfered_ == surface.times_chamfered()) return;
   times_chamfered_ = surface.times_chamfered();
-  predicted_ = predicted_tetrahedra(chamfered, budget_, session);
+  predicted_ = predicted_tetrahedra(chamfered, most_predicted_, session);
   recorder.predicted(predicted_);
 }
 
-bool Budget::can_raise_tau() const {
-  constexpr double kLargestTau = 0.05;
-  return is_automatic_ ? tau_ < tau_asked_ : tau_ <= kLargestTau;
-}
-
-void Budget::raise_tau() {
-  constexpr double kLeastTau = 1e-5;
-  tau_ = is_automatic_ ? tau_asked_ : std::max(2 * tau_, kLeastTau);
+std::string Budget::excess() const {
+  return budget_ > 0 ? "more than " + budget_text(budget_) : "too many tetrahedra";
 }
 
 void Budget::settle(Session& session) const {
-  if (!is_kept()) {
-    throw Stopped{{StatusCode::limit_reached, over_budget(tau_, budget_), Limit::size}};
-  }
+  if (!is_kept()) throw beyond(excess() + " are predicted: about " + about(predicted_));
   session.control.predict(predicted_);
-  if (is_automatic_) {
-    // Refined meshes have a vertex for two tetrahedra predicted.
-    constexpr double kFarBeyond = 3;
-    session.control.allow(session.points.size() +
-                          static_cast<std::uint64_t>(kFarBeyond * budget_ / 2));
-  }
+  bound(session);
+}
+
+void Budget::bound(Session& session) const {
+  if (most_vertices_ == 0) return;
+  session.control.allow(session.points.size() + static_cast<std::uint64_t>(most_vertices_),
+                        beyond("the mesh takes " + excess()).status);
+}
+
+Status Budget::check(const Options& options, const Result& result) {
+  const std::uint64_t made = result.mesh.tetrahedra.size();
+  if (options.budget == 0 || made <= options.budget) return {};
+  return beyond("the mesh has " + std::to_string(made) + " tetrahedra, more than " +
+                budget_text(options.budget) +
+                (options.tolerance == 0 ? "; with --tolerance there are fewer" : ""))
+      .status;
 }
 
 }  // namespace delmesher::policies

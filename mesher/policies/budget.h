@@ -1,7 +1,9 @@
-// Policy: how much of the surface the filter drops, so that the mesh keeps to a budget.
+// Policy: is the refined mesh too heavy? Then the filter drops more, or the surface is kept.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 
 #include "mesher/chamfer/filter.h"
 #include "mesher/results/recorder.h"
@@ -9,20 +11,17 @@
 
 namespace delmesher::policies {
 
-// The filter's tolerance is Options::tau, and doubled as long as more tetrahedra are predicted than
-// Options::budget says (0: never). With SurfaceChoice::automatic the budget is what the option says
-// there, and the tolerance kFinestTau, or Options::tau where that is too much.
+// Tetrahedra may be as many as Options::budget says; else, with SurfaceChoice::automatic, four
+// times those of a kept surface. Where more are predicted, the run ends with Limit::budget. With
+// SurfaceChoice::automatic the filter's tolerance is kFinestTau, and Options::tau where that is too
+// much.
 class Budget {
  public:
   // A fraction of the diagonal. Features that are smaller are hardly meant, and few doubles tell
   // their points apart.
   static constexpr double kFinestTau = 1e-9;
 
-  explicit Budget(const Options& options)
-      : is_automatic_(options.surface == SurfaceChoice::automatic),
-        budget_(static_cast<double>(options.budget)),
-        tau_asked_(options.tau),
-        tau_(is_automatic_ ? kFinestTau : tau_asked_) {}
+  explicit Budget(const Options& options);
 
   // In force: a fraction of the diagonal.
   double tau() const { return tau_; }
@@ -32,21 +31,28 @@ class Budget {
                             Recorder& recorder);
   // Predicts the mesh of that surface, which was filtered with tau().
   void predict(chamfer::FilteredSurface& surface, const Session& session, Recorder& recorder);
-  bool is_kept() const { return budget_ == 0 || predicted_ <= budget_; }
-  // Not beyond a twentieth of the diagonal, because whole features of the model would go.
-  bool can_raise_tau() const;
-  void raise_tau();
-  // Tells Session::control the prediction; throws Stopped, as a limit of size, if it exceeds the
-  // budget. With SurfaceChoice::automatic a refinement far beyond it ends in the same way.
+  bool is_kept() const { return most_predicted_ == 0 || predicted_ <= most_predicted_; }
+  bool can_raise_tau() const { return tau_ < tau_asked_; }
+  void raise_tau() { tau_ = tau_asked_; }
+  // Tells Session::control the prediction; throws Stopped if it is too much.
   void settle(Session& session) const;
+  // What makes far more vertices than are wanted ends in the same way from now on.
+  void bound(Session& session) const;
+
+  // Not OK, with the limit of the budget, if a mesh to be written has more.
+  static Status check(const Options& options, const Result& result);
 
  private:
   double least(chamfer::FilteredSurface& surface, const Session& session) const;
+  void want_at_most(double tetrahedra);
+  std::string excess() const;
 
   const bool is_automatic_;
-  double budget_;  // tetrahedra; 0: none, or not known yet
+  const std::uint64_t budget_;
   const double tau_asked_;
   double tau_, predicted_ = 0;
+  double most_predicted_ = 0;             // 0: any number, or not known yet
+  double most_vertices_ = 0;              // that may be added
   std::optional<double> least_of_whole_;  // least(), with nothing dropped
   std::uint64_t times_chamfered_ = 0;     // before the last prediction
 };

@@ -5,8 +5,23 @@
 
 #include "mesher/geometry/vector.h"
 #include "mesher/policies/planar_runs.h"
+#include "mesher/refine/prediction.h"
 
 namespace delmesher::policies {
+
+Part part_of(const Result& result) {
+  const TetMesh& mesh = result.mesh;
+  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
+  double volume = 0, area = 0;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    volume += std::fabs(
+        dot(subtract(at(b), at(a)), cross(subtract(at(c), at(a)), subtract(at(d), at(a)))));
+  }
+  for (const auto& [a, b, c] : mesh.boundary) {
+    area += norm(cross(subtract(at(b), at(a)), subtract(at(c), at(a))));
+  }
+  return {result.statistics.bbox_diagonal, volume / 6, area / 2};
+}
 
 bool may_choose_size(const Options& options) {
   return options.size == kSizeAuto && options.surface != SurfaceChoice::keep &&
@@ -19,26 +34,11 @@ DefaultSize default_size(const Result& without_size) {
   constexpr double kLargest = 0.1, kSmallest = 0.05;  // of the diagonal
   constexpr double kFew = 0.5, kThinnest = 0.1;
   const TetMesh& mesh = without_size.mesh;
-  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
-  const double diagonal = without_size.statistics.bbox_diagonal;
-  if (diagonal == 0 || mesh.tetrahedra.empty()) return {};
-  double volume = 0, area = 0;
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    volume += std::fabs(
-        dot(subtract(at(b), at(a)), cross(subtract(at(c), at(a)), subtract(at(d), at(a)))));
-  }
-  for (const auto& [a, b, c] : mesh.boundary) {
-    area += norm(cross(subtract(at(b), at(a)), subtract(at(c), at(a))));
-  }
-  volume /= 6;
-  area /= 2;
-  const double thickness = 2 * volume / area;  // of a plate
-  const double size = std::clamp(thickness, kSmallest * diagonal, kLargest * diagonal);
-  // As measured: in a cube of this side, and below a square of a thin plate, of which both faces
-  // count.
-  constexpr double kInCube = 9.8, kPerSquare = 3.5;
-  const double made =
-      std::max(kInCube * volume / (size * size * size), kPerSquare * area / (size * size));
+  const Part part = part_of(without_size);
+  if (part.diagonal == 0 || mesh.tetrahedra.empty()) return {};
+  const double thickness = 2 * part.volume / part.area;  // of a plate
+  const double size = std::clamp(thickness, kSmallest * part.diagonal, kLargest * part.diagonal);
+  const double made = refine::tetrahedra_of_size(size, part.volume, part.area);
   const bool few = static_cast<double>(mesh.tetrahedra.size()) < kFew * made;
   if (!few || thickness < kThinnest * size) return {};
   constexpr double kMostTimes = 3;  // vertices per tetrahedron expected; usual is a quarter
@@ -50,8 +50,6 @@ std::string why_not(const Result& sized, const Result& without_size) {
   if (PlanarRuns::is_worse(sized, without_size)) {
     return "tetrahedra are inverted or flat, lines are lost, or coordinates are not exact";
   }
-  const auto is_kept = [](const Result& r) { return r.statistics.ladder[Rung::keep_surface] > 0; };
-  if (is_kept(sized) && !is_kept(without_size)) return "the surface would have to be kept";
   const MeshStatistics& s = sized.statistics.final;
   const bool is_bad = static_cast<double>(s.below_5) > kMostBad * static_cast<double>(s.tetrahedra);
   return is_bad ? "too many tetrahedra have dihedral angles below 5 degrees" : "";

@@ -1,12 +1,17 @@
 // Policy: how long edges are where nothing says so.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "mesher/delmesher.h"
 
 namespace delmesher::policies {
+
+// What the number of tetrahedra with a size follows from.
+struct Part {
+  double diagonal = 0, volume = 0, area = 0;
+};
+Part part_of(const Result& result);
 
 // May Options::size be chosen? Not where another option says how long edges are or how many
 // tetrahedra are wanted, where edges of the surface are not to be halved, or come back at the end
@@ -25,8 +30,7 @@ struct DefaultSize {
 DefaultSize default_size(const Result& without_size);
 
 // Why the mesh with that size is no better for a solver than the one without: it has more defects,
-// its surface alone is kept, or of ten tetrahedra more than one has a dihedral angle below 5
-// degrees. Empty if it is.
+// or of ten tetrahedra more than one has a dihedral angle below 5 degrees. Empty if it is.
 std::string why_not(const Result& sized, const Result& without_size);
 
 }  // namespace delmesher::policies

@@ -69,10 +69,6 @@ TEST(DefaultSize, IsOfUseUnlessOneInTenIsFlat) {
   sized.statistics.final.below_5 = 11;
   EXPECT_NE(why_not(sized, {}), "");
   sized.statistics.final.below_5 = 0;
-  Result kept = sized;
-  kept.statistics.ladder[Rung::keep_surface] = 1;
-  EXPECT_NE(why_not(kept, {}), "");
-  EXPECT_EQ(why_not(kept, kept), "");
   sized.statistics.rounding_flat = 1;
   EXPECT_NE(why_not(sized, {}), "");
 }

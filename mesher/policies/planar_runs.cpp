@@ -43,8 +43,9 @@ Options PlanarRuns::options() const {
 }
 
 bool PlanarRuns::is_too_heavy(const Result& best) const {
+  const Limit limit = best.status.limit;
   return first_.surface == SurfaceChoice::automatic &&
-         (best.status.limit == Limit::size || best.status.limit == Limit::precision);
+         (limit == Limit::budget || limit == Limit::size || limit == Limit::precision);
 }
 
 Options PlanarRuns::in_time_left(Options options) const {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mesher/base/flat_map.h"
+#include "mesher/delmesher/options.h"
 #include "mesher/geometry/box_tree.h"
 #include "mesher/geometry/vector.h"
 
@@ -20,7 +21,11 @@ constexpr double kCellSize = 1.5;
 // cells, of which simple models have no others.
 constexpr double kFarReach = 4;
 // Tetrahedra per integral of 1 / lfs^3, measured.
-constexpr double kPerUnit[2] = {1.26, 1.5};  // inside; down to the outer box
+constexpr double kPerUnit[2] = {0.84, 1};  // inside; down to the outer box
+// A bound on edges takes as many as so small a local feature size.
+constexpr double kOfBound = 0.32;
+// In a cube of edges of the size, and per square of it on a thin plate, of which both faces count.
+constexpr double kInCube = 9.8, kPerSquare = 3.5;
 constexpr int kMinDepth = 3, kMaxDepth = 60;
 // From this depth on, four children of eight stand for all: every other one, as on a chessboard.
 // One level more without that costs twice the time and brings estimates 4 % nearer (root mean
@@ -129,7 +134,7 @@ class Predictor {
     }
     if (options_.region == Region::hull) root.side *= 2;  // the outer box (section 5.1)
     visit(root, Where::unknown);
-    return predicted();
+    return predicted() + of_bound();
   }
 
  private:
@@ -168,6 +173,20 @@ class Predictor {
   void add_vertex(VertexId v, Owned& vertices) {
     elements_.push_back({{v, kNone, kNone}, static_cast<std::uint32_t>(vertices.size())});
     vertices.push_back({v});
+  }
+
+  // Of the bound on edges, inside: cells are too coarse for the volume of thin parts.
+  double of_bound() const {
+    if (options_.max_edge == 0 || options_.region != Region::interior) return 0;
+    const Vec3 origin = surface_.node(0).box.lo;
+    double sixfold = 0, area = 0;
+    for (const auto& t : topology_.triangles) {
+      const auto at = [&](std::size_t k) { return subtract(points_.nearest(t[k]), origin); };
+      const Vec3 normal = cross(subtract(at(1), at(0)), subtract(at(2), at(0)));
+      sixfold += dot(at(0), normal);
+      area += norm(normal) / 2;
+    }
+    return tetrahedra_of_size(options_.max_edge / kMostOfSize, std::fabs(sixfold) / 6, area);
   }
 
   enum class Where : std::uint8_t { unknown, inside, outside };
@@ -334,7 +353,9 @@ class Predictor {
     if (cell.depth < kMinDepth) return divide(cell, cell.parent, where);
     Surroundings around = surroundings(cell.center, cell.side, cell.parent);
     double size = around.size;
-    if (options_.sizes != nullptr) size = std::min(size, options_.sizes->at(cell.center));
+    if (options_.sizes != nullptr) {
+      size = std::min(size, kOfBound * options_.sizes->at(cell.center));
+    }
     const bool crossed = around.nearest < 0.8660254 * cell.side;
     const bool interior = options_.region == Region::interior;
     if (where == Where::unknown && interior && !crossed) {
@@ -348,7 +369,8 @@ class Predictor {
     if (cell.depth == kMinDepth && size >= cell.side) {
       size = surroundings(cell.center, kFarReach * cell.side, around).size;
     }
-    const double target = options_.max_edge > 0 ? std::min(size, options_.max_edge) : size;
+    const bool bounded = options_.max_edge > 0 && !interior;
+    const double target = bounded ? std::min(size, kOfBound * options_.max_edge) : size;
     const double ratio = cell.side / target;
     const bool half = crossed && interior;
     sum_ += (half ? 0.5 : 1) * cell.weight * ratio * ratio * ratio;
@@ -397,6 +419,15 @@ class Predictor {
 };
 
 }  // namespace
+
+double tetrahedra_of_size(double size, double volume, double area) {
+  return std::max(kInCube * volume / (size * size * size), kPerSquare * area / (size * size));
+}
+
+double size_for(double tetrahedra, double volume, double area) {
+  return std::max(std::cbrt(kInCube * volume / tetrahedra),
+                  std::sqrt(kPerSquare * area / tetrahedra));
+}
 
 double predict_tetrahedra(const Plc& plc, const SurfaceTopology& topology,
                           const std::vector<std::uint8_t>& facet_kept, const PointStore& points,

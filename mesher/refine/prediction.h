@@ -17,6 +17,12 @@
 
 namespace delmesher::refine {
 
+// As measured: in a cube with edges of this length on average, or in a thin plate. `area`: of the
+// whole surface.
+double tetrahedra_of_size(double size, double volume, double area);
+// The length with which there are so many.
+double size_for(double tetrahedra, double volume, double area);
+
 struct PredictionOptions {
   Region region = Region::interior;
   double max_edge = 0;               // of the mesh to come; 0: no bound

@@ -113,7 +113,7 @@ void scale(Result& result, int exponent) {
   }
   scale(result.exact, exponent);
   Statistics& s = result.statistics;
-  for (double* length : {&s.bbox_diagonal, &s.default_size, &s.tolerance, &s.max_surface_deviation,
+  for (double* length : {&s.bbox_diagonal, &s.chosen_size, &s.tolerance, &s.max_surface_deviation,
                          &s.planar_deviation, &s.planar_bound}) {
     *length = std::ldexp(*length, exponent);
   }

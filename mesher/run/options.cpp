@@ -71,6 +71,7 @@ std::string combination_defect(const Options& given) {
   }
   if (complex && given.surface == SurfaceChoice::split) return "--regions needs --surface keep";
   if (complex && given.want_exact) return "--regions has no exact record yet";
+  if (complex && given.budget > 0) return "--budget with --regions is not possible yet";
   if ((given.regions == Regions::named) == given.region_names.empty()) {
     return "names of regions are for --regions with names";
   }

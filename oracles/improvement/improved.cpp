@@ -67,7 +67,7 @@ class Improved {
     if (options_.promised.names) report_.unproven.emplace_back(kOtherNames);
     check_nodes();
     if (options_.promised.max_vertices > 0) {
-      add(check_written(options_.promised, mesh_.vertices.size()));
+      add(check_written(options_.promised, mesh_.vertices.size(), mesh_.tetrahedra.size()));
     }
     check_angles();
     return {};

@@ -159,8 +159,7 @@ class Improvement {
         halves_(promise.task == Task::mesh),
         longest_(promise.max_edge),
         sizes_(promise.size_field, promise.size_growth),
-        bound_(promise.size_field, promise.size_growth,
-               std::max(promise.max_edge, promise.longest_unasked)),
+        bound_(promise.size_field, promise.size_growth, promise.longest_whole()),
         excused_from_(returned) {
     if (names_origin(record)) written_ = all_rounded(points, record.origin);
   }

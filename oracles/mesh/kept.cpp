@@ -41,8 +41,7 @@ bool has_longer_edge(const Corners& at, const EdgeSizes& bound) {
 OracleReport check_kept(const Polyhedron& input, const MeshFile& mesh, std::span<const Face> faces,
                         Index first, const Promise& promise) {
   OracleReport report("kept", "triangles");
-  const EdgeSizes bound(promise.size_field, promise.size_growth,
-                        std::max(promise.max_edge, promise.longest_unasked));
+  const EdgeSizes bound(promise.size_field, promise.size_growth, promise.longest_whole());
   std::uint64_t split = 0, too_long = 0;
   report.checked = input.triangles.size();
   std::vector<Corners> given, made;

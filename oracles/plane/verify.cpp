@@ -98,7 +98,7 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
     report.deviation =
         std::max(report.deviation, verify_record(input, file, *record, options, report));
   } else if (options.promised.max_vertices > 0) {
-    report.oracles.push_back(oracles::check_written(options.promised, file.vertices.size()));
+    report.oracles.push_back(oracles::check_written(options.promised, file.vertices.size(), 0));
   }
   report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
   report.deviation_share = input.diagonal() > 0 ? report.deviation / input.diagonal() : 0;

@@ -17,12 +17,12 @@ using delmesher::ExactRecord;
 // The filter compares distances in doubles, so it decides ties within this share of the tolerance.
 constexpr double kSlack = 1e-9;
 
-// Which distances count: their squares, in integer units, from `least` on and below
-// `bound`. `reach` is the root of the latter in input units.
+// Which distances count: their squares, in integer units, below `bound`, but not negative, which
+// stands for none. `reach` is its root in input units.
 struct Range {
   double reach;
-  mpq_class bound, least = 0;
-  bool contains(const mpq_class& squared) const { return squared >= least && squared < bound; }
+  mpq_class bound;
+  bool contains(const mpq_class& squared) const { return squared >= 0 && squared < bound; }
 };
 
 struct Element {
@@ -253,18 +253,13 @@ class FilterCheck {
         corners_(*mesh.points, surface_),
         features_(*mesh.points, surface_, facets_, corners_),
         exponent_(mesh.points->exponent()),
-        diagonal_(mesh.diagonal),
         thresholds_(thresholds_of(record_.parameters)),
         chamfers_(*mesh.points, surface_, corners_, thresholds_,
                   {.limit = mesh.promise->chamfer_radius,
                    .to_link = mesh.promise->link || mesh.promise->bridges,
                    .per_triangle = mesh.promise->bridges}),
-        promise_(*mesh.promise),
         pairs_(mesh.promise->filter_pairs),
-        both_sides_(mesh.promise->filter_chamfered) {
-    const ExactRecord::Parameters& p = record_.parameters;
-    guarded_ = p.acute > promise_.acute || p.corner > promise_.corner_in_force();
-  }
+        both_sides_(mesh.promise->filter_chamfered) {}
   FilterCheck(const FilterCheck&) = delete;
   FilterCheck& operator=(const FilterCheck&) = delete;
 
@@ -284,8 +279,6 @@ class FilterCheck {
     } else {
       check_first_step(first, below(high));
     }
-    // Now the whole surface is present.
-    if (second.empty() && !pairs_) check_budget(tolerance);
     report_.figures.emplace_back("dropped facets", first.size() + second.size());
     report_.figures.emplace_back("dropped for what chamfering made of them", second.size());
     report_.figures.emplace_back("tolerance", tolerance);
@@ -300,7 +293,7 @@ class FilterCheck {
   mpq_class bound(double length) const {
     return times_power_of_two(mpq_class(length) * mpq_class(length), -2 * exponent_);
   }
-  Range below(double length) const { return {length, bound(length), 0}; }
+  Range below(double length) const { return {length, bound(length)}; }
 
   void check_kept(const Range& range) {
     const auto judge = [&](const std::string& pair) {
@@ -314,29 +307,6 @@ class FilterCheck {
     for (Index e = 0; e < surface_.edges().size(); ++e) {
       if (features_.edge_present(e)) judge(features_.near_edge(e, range));
     }
-  }
-
-  // The tolerance was doubled for a budget because too many tetrahedra were predicted with half of
-  // it. The first step takes the closest pairs first, so that it drops the same with both if
-  // nothing of the surface is as far apart as half the tolerance, and closer than all of it; and
-  // the second step, if it drops nothing, does not with half of it, either. The surfaces are the
-  // same then, and so is what is predicted. Where the guard has chamfered again, the second step
-  // may have dropped something before.
-  void check_budget(double tolerance) {
-    constexpr double kLeast = 1e-5;  // of the diagonal: the first that is tried instead of 0
-    const double given = promise_.tau * diagonal_, least = kLeast * diagonal_;
-    if (promise_.budget == 0 || guarded_ || tolerance <= given * (1 + kSlack)) return;
-    const double before = tolerance <= least * (1 + kSlack) ? given : tolerance / 2;
-    Range between = below(tolerance * (1 + kSlack));
-    between.least = bound(before * (1 - kSlack));
-    ++report_.checked;
-    for (const Index v : surface_.used_vertices()) {
-      if (features_.vertex_present(v) && !features_.near_vertex(v, between).empty()) return;
-    }
-    for (Index e = 0; e < surface_.edges().size(); ++e) {
-      if (features_.edge_present(e) && !features_.near_edge(e, between).empty()) return;
-    }
-    report_.fail("the tolerance was raised for the budget, and half of it drops the same");
   }
 
   std::vector<Index> dropped_in(int step) const {
@@ -481,12 +451,9 @@ class FilterCheck {
   const AcuteCorners corners_;
   Features features_;
   long exponent_;
-  double diagonal_;
   const CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
-  const Promise& promise_;
   bool pairs_, both_sides_;
-  bool guarded_ = false;  // some threshold is stricter than was asked for
   OracleReport report_{"filter", "vertices, edges and dropped facets"};
   double within_roundings_ = 0;  // facets
 };

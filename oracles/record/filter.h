@@ -16,7 +16,6 @@ namespace tetproof::oracles {
 //   of the facets whose corners, edges or insides it separates.
 // - First step: elements (vertex, edge or facet, none of whose facets is there), each closer than
 //   the tolerance to a present one that it does not touch.
-// A tolerance that was raised for a budget dropped more than half of it, as far as that is certain.
 //
 // Facets that could be put back alone after all are counted. The order of the drops matters, so a
 // facet dropped early may have become harmless.

@@ -18,7 +18,6 @@ struct RefinedMesh {
   const Neighbours* neighbours = nullptr;
   const Promise* promise = nullptr;
   Index input_vertices = 0;
-  double diagonal = 0;  // of the input as given, in input units
 };
 
 // Chains on input edges: straight, on their edge, made of mesh edges and disjoint. Nothing of an

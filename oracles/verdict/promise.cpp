@@ -195,7 +195,7 @@ bool is_of_record(const std::string& option, Task task) {
   constexpr std::string_view kBoth[] = {"--delta",          "--tau",    "--acute",
                                         "--chamfer-radius", "--preset", "--as-paper",
                                         "--approximate"},
-                             kOfMesh[] = {"--corner", "--gabriel", "--budget", "--improve"};
+                             kOfMesh[] = {"--corner", "--gabriel", "--improve"};
   const auto among = [&](const auto& names) {
     return std::find(std::begin(names), std::end(names), option) != std::end(names);
   };
@@ -486,7 +486,7 @@ class PromiseCheck {
       demand(record_.final.empty() && record_.final_facets.empty(),
              "the record has a final mesh, or faces of one, promised was --approximate");
     }
-    if (promise_.max_vertices > 0) check_vertices();
+    check_numbers();
     check_planar();
     check_unasked();
     if (promise_.task == Task::mesh) {
@@ -513,11 +513,18 @@ class PromiseCheck {
   }
 
   // Nothing is left of the meshes in between, for which the limit also holds.
-  void check_vertices() {
-    const auto written = static_cast<double>(record_.mesh_vertices.size());
-    demand(written <= promise_.max_vertices, "the record has " + number(written) +
-                                                 " written vertices, promised were at most " +
-                                                 number(promise_.max_vertices));
+  void check_numbers() {
+    const auto is_written = [&](const ExactRecord::Tet& tet) {
+      return tet.inside || promise_.region == Region::hull;
+    };
+    at_most(promise_.max_vertices, static_cast<double>(record_.mesh_vertices.size()), "vertices");
+    at_most(promise_.budget, static_cast<double>(std::ranges::count_if(record_.final, is_written)),
+            "tetrahedra");
+  }
+  void at_most(double promised, double written, const std::string& what) {
+    if (promised == 0) return;
+    demand(written <= promised, "the record has " + number(written) + " written " + what +
+                                    ", promised were at most " + number(promised));
   }
 
   // Sections that no oracle would look at.
@@ -566,20 +573,12 @@ class PromiseCheck {
     check_tolerance();
   }
 
-  // tau, or 1e-9 where the surface might have been kept, or for a budget the first of tau, 2 tau, 4
-  // tau ... (from 1e-5 if that is more) that fits.
+  // tau, or 1e-9 where the surface might have been kept.
   void check_tolerance() {
-    constexpr double kLeast = 1e-5, kLargest = 0.1, kFinest = 1e-9, kSlack = 1e-9;
+    constexpr double kFinest = 1e-9, kSlack = 1e-9;
     const double recorded = diagonal_ > 0 ? record_.parameters.tolerance / diagonal_ : 0;
     const auto is = [&](double tau) { return std::fabs(recorded - tau) <= kSlack * tau; };
-    bool kept = is(promise_.tau) || (promise_.may_keep && is(kFinest));
-    if (!kept && promise_.budget > 0) {
-      double tau = std::max(2 * promise_.tau, kLeast);
-      while (!is(tau) && tau <= kLargest) tau *= 2;
-      kept = tau <= kLargest * (1 + kSlack);
-      report_.figures.emplace_back(kTauForBudget, recorded);
-    }
-    demand(kept,
+    demand(is(promise_.tau) || (promise_.may_keep && is(kFinest)),
            "the record has tau " + number(recorded) + ", promised was " + number(promise_.tau));
   }
 
@@ -617,7 +616,7 @@ void Promise::settle(const ExactRecord& record) {
   const auto same = [&](auto... members) { return ((this->*members == usual.*members) && ...); };
   may_keep =
       same(&Promise::delta, &Promise::tau, &Promise::planar, &Promise::acute, &Promise::corner,
-           &Promise::chamfer_radius, &Promise::budget) &&
+           &Promise::chamfer_radius) &&
       same(&Promise::gabriel, &Promise::approximate, &Promise::improve, &Promise::link,
            &Promise::bridges, &Promise::steiner_point, &Promise::kept_points, &Promise::enrichment,
            &Promise::filter_pairs, &Promise::filter_chamfered, &Promise::no_guard, &Promise::order,
@@ -629,17 +628,23 @@ void Promise::settle(const ExactRecord& record) {
 }
 
 void Promise::allow_sizes(double diagonal, double volume, double area) {
-  const bool may_choose = size == kSizeAuto && !keep && !all_regions && tolerance == 0 &&
-                          max_edge == 0 && size_field.empty() && budget == 0 && planar != 0 &&
-                          improve && !approximate && region == Region::interior &&
-                          task == Task::mesh;
+  const bool may_choose = size == kSizeAuto && !keep && !all_regions && planar != 0 &&
+                          !approximate && task == Task::mesh;
+  // Shorter ones would take 10^12 tetrahedra for each diagonal in length.
+  constexpr double kShortest = 1e-12;
+  if (budget > 0) {
+    longest_unasked = may_choose ? kShortest * diagonal : 0;
+    return;
+  }
+  const bool may_choose_unasked = may_choose && tolerance == 0 && max_edge == 0 &&
+                                  size_field.empty() && improve && region == Region::interior;
   // Of the diagonal, but for the last.
   constexpr double kSmallest = 0.05, kLargest = 0.1, kRounded = 0.999;
   // Planar facets may make the part thinner on both sides.
   const double thickness = kRounded * 2 * volume / area - 2 * most_planar() * diagonal;
   const double least = thickness > kSmallest * diagonal ? std::min(thickness, kLargest * diagonal)
                                                         : kSmallest * diagonal;
-  longest_unasked = may_choose ? kMostOfSize * least : 0;
+  longest_unasked = may_choose_unasked ? kMostOfSize * least : 0;
 }
 
 double Promise::most_planar() const {
@@ -756,15 +761,19 @@ OracleReport check_promise(const Promise& promise, const ExactRecord& record, un
   return PromiseCheck(promise, record, diagonal).run(version);
 }
 
-OracleReport check_written(const Promise& promise, std::size_t vertices, double planar_within) {
+OracleReport check_written(const Promise& promise, std::size_t vertices, std::size_t tetrahedra,
+                           double planar_within) {
   constexpr double kSlack = 1e-9;
   OracleReport report("promise", "promises");
   report.checked = 1;
-  const auto written = static_cast<double>(vertices);
-  if (promise.max_vertices > 0 && written > promise.max_vertices) {
-    report.fail("the file has " + number(written) + " vertices, promised were at most " +
-                number(promise.max_vertices));
-  }
+  const auto at_most = [&](double promised, std::size_t count, const std::string& what) {
+    const auto written = static_cast<double>(count);
+    if (promised == 0 || written <= promised) return;
+    report.fail("the file has " + number(written) + " " + what + ", promised were at most " +
+                number(promised));
+  };
+  at_most(promise.max_vertices, vertices, "vertices");
+  at_most(promise.budget, tetrahedra, "tetrahedra");
   if (planar_within > promise.most_planar() * (1 + kSlack)) {
     report.fail("the file says that facets are planar within " + number(planar_within) +
                 " of the diagonal, promised were at most " + number(promise.most_planar()));

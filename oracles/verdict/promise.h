@@ -76,11 +76,12 @@ struct Promise {
   double size = 0;
   // Edges longer than this may have been halved for such a size; 0: none. The verification sets it.
   double longest_unasked = 0;
+  double longest_whole() const { return longest_unasked > 0 ? longest_unasked : max_edge; }
   bool edges_by_size = false;                          // max_edge follows from it
   std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
   double size_growth = 0.3;
   std::vector<std::array<double, 3>> points = {};  // further vertices of the input
-  double budget = 0;                               // tetrahedra; 0: tau is not raised
+  double budget = 0;                               // tetrahedra; 0: any number
   // The options given, in a text, that a file without a record does not show to be kept.
   std::vector<std::string> of_record = {};
   double max_vertices = 0;  // 0: no limit
@@ -128,14 +129,13 @@ Promise promise_of(const delmesher::PlaneOptions& options);
 // Checks the record's version, that it has exactly the sections that the promise needs, and that
 // its parameters are those promised or stricter ones. `diagonal`: of the input's bounding box, in
 // input units.
-// Figure: the tau of the record, where that promised was raised for a budget.
-inline constexpr char kTauForBudget[] = "tau for the budget";
 OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
                            unsigned version, double diagonal);
 
-// The same for a file without a record: at most --max-vertices vertices, and the deviation between
-// facets that it states (MeshFile::planar_within).
-OracleReport check_written(const Promise& promise, std::size_t vertices, double planar_within = 0);
+// The same for a file without a record: at most --max-vertices vertices, --budget tetrahedra, and
+// the deviation between facets that it states (MeshFile::planar_within).
+OracleReport check_written(const Promise& promise, std::size_t vertices, std::size_t tetrahedra,
+                           double planar_within = 0);
 
 // What is not shown where sets are called by names of another file (--names).
 inline constexpr char kOtherNames[] = "--names";

@@ -315,6 +315,9 @@ const Lie kConsistent[] = {
      [](Told& t) { t.promise.max_edge = 0x1p-4; }},
     {"a run of more vertices than were allowed", "promise",
      [](Told& t) { t.promise.max_vertices = 20; }, "passed"},
+    {"a run of more tetrahedra than were allowed", "promise",
+     [](Told& t) { t.promise.budget = static_cast<double>(t.sample.mesh.tetrahedra.size()) - 1; },
+     "passed"},
     {"a run without the size field that was promised", "refined-sizes",
      [](Told& t) {
        t.promise.size_field = {{t.sample.input.vertices[0], 0x1p-6}};

@@ -407,16 +407,6 @@ TEST(PlanarTruths, ABarPutOntoTheSurfaceAsGivenPasses) {
   EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
 }
 
-// The tolerance is a share of the diagonal of the surface as given, not of the one that was meshed.
-TEST(PlanarTruths, ABudgetThatAsksForNothingPasses) {
-  Options options;
-  options.budget = 1000000;
-  const Told told = run_with(rotated(stairs(), to_single), options);
-  EXPECT_EQ(told.promise.budget, 1000000);
-  const VerifyReport report = verdict_on(told);
-  EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
-}
-
 class PlanarLies : public testing::TestWithParam<Lie> {};
 
 TEST_P(PlanarLies, AreCaughtByTheOracleMeantForThem) {

@@ -155,8 +155,8 @@ def test_limits():
 
 def test_a_size_by_default_is_told():
     told, none = tetproof.mesh(POINTS, TRIANGLES).stats, tetproof.mesh(POINTS, TRIANGLES, size="none").stats
-    assert told["default_size"] == pytest.approx(np.sqrt(3) / 10) and told["tetrahedra_without_size"] == none["final"]["tetrahedra"]
-    assert none["default_size"] == 0 and none["tetrahedra_without_size"] == 0
+    assert told["chosen_size"] == pytest.approx(np.sqrt(3) / 10) and told["tetrahedra_without_size"] == none["final"]["tetrahedra"]
+    assert none["chosen_size"] == 0 and none["tetrahedra_without_size"] == 0
 
 
 def test_progress():
