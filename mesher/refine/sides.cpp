@@ -10,26 +10,59 @@
 namespace delmesher::refine {
 namespace {
 
-// Is the box certainly beyond the plane of a face of the tetrahedron, whose corners are known up to
-// an error per coordinate?
-bool beyond_a_face(const std::array<Vec3, 4>& corner, double error, const Box& box) {
-  constexpr double kRounding = 0x1p-48;  // more than enough for these few operations
-  for (const auto& [i, j, k] : kFace) {
-    const Vec3 u = subtract(corner[j], corner[i]), v = subtract(corner[k], corner[i]);
-    const Vec3 n = cross(u, v);
-    // The least of n . (x - corner i) over the box, and the greatest magnitudes that enter it.
-    double least = 0, reach = 0, size = 0;
-    for (int a = 0; a < 3; ++a) {
-      const double lo = box.lo[a] - corner[i][a], hi = box.hi[a] - corner[i][a];
-      least += n[a] > 0 ? n[a] * lo : n[a] * hi;
-      reach = std::max({reach, std::fabs(lo), std::fabs(hi), std::fabs(corner[i][a])});
-      size = std::max({size, std::fabs(u[a]), std::fabs(v[a])});
+// A tetrahedron whose corners are known up to an error per coordinate.
+class RoundedTetrahedron {
+ public:
+  RoundedTetrahedron(const std::array<Vec3, 4>& corner, double error)
+      : corner_(corner), error_(error) {}
+
+  // Is the box certainly beyond the plane of a face?
+  bool is_beyond_a_face(const Box& box) {
+    constexpr double kRounding = 0x1p-48;  // more than enough for these few operations
+    if (std::ranges::any_of(corner_, [&](const Vec3& x) { return box.overlaps({x, x}); })) {
+      return false;
     }
-    const double off = error + kRounding * reach;  // of any difference of coordinates
-    if (least > 16 * size * size * off + 32 * size * reach * (off + kRounding * size)) return true;
+    if (!has_normals_) find_normals();
+    for (std::size_t f = 0; f < 4; ++f) {
+      const Vec3 &x = corner_[static_cast<std::size_t>(kFace[f][0])], &n = normal_[f];
+      // The least of n . (y - x) over the box, and the greatest magnitudes that enter it.
+      double least = 0, reach = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double lo = box.lo[a] - x[a], hi = box.hi[a] - x[a];
+        least += n[a] > 0 ? n[a] * lo : n[a] * hi;
+        reach = std::max({reach, std::fabs(lo), std::fabs(hi), std::fabs(x[a])});
+      }
+      const double size = size_[f];
+      const double off = error_ + kRounding * reach;  // of any difference of coordinates
+      if (least > 16 * size * size * off + 32 * size * reach * (off + kRounding * size)) {
+        return true;
+      }
+    }
+    return false;
   }
-  return false;
-}
+
+ private:
+  void find_normals() {
+    for (std::size_t f = 0; f < 4; ++f) {
+      const auto at = [&](int k) -> const Vec3& {
+        return corner_[static_cast<std::size_t>(kFace[f][k])];
+      };
+      const Vec3 u = subtract(at(1), at(0)), v = subtract(at(2), at(0));
+      normal_[f] = cross(u, v);
+      size_[f] = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        size_[f] = std::max({size_[f], std::fabs(u[a]), std::fabs(v[a])});
+      }
+    }
+    has_normals_ = true;
+  }
+
+  const std::array<Vec3, 4>& corner_;
+  double error_;
+  bool has_normals_ = false;
+  std::array<Vec3, 4> normal_;
+  std::array<double, 4> size_;  // of the edges that make the normal
+};
 
 Sides::State state_of(Side side) {
   return side == Side::inside    ? Sides::State::inside
@@ -49,7 +82,7 @@ Sides::Sides(const Plc& plc, const SurfaceTopology& topology, const PointStore& 
       removed_boxes_(removed),
       solid_(topology, dt.predicates(), removed) {}
 
-bool Sides::near_removed(TetId t) const {
+bool Sides::near_removed(TetId t, std::uint32_t& last_near) const {
   if (removed_boxes_.empty()) return false;
   std::array<Vec3, 4> corner;
   double error = 0;
@@ -63,8 +96,15 @@ bool Sides::near_removed(TetId t) const {
     box.lo[k] -= error;
     box.hi[k] += error;
   }
-  return !removed_boxes_.query(
-      box, [&](std::uint32_t i) { return beyond_a_face(corner, error, removed_[i]); });
+  // What the last one was near, its neighbours are.
+  RoundedTetrahedron tetrahedron(corner, error);
+  const auto is_far = [&](std::uint32_t i) {
+    if (tetrahedron.is_beyond_a_face(removed_[i])) return true;
+    last_near = i;
+    return false;
+  };
+  return (removed_[last_near].overlaps(box) && !is_far(last_near)) ||
+         !removed_boxes_.query(box, is_far);
 }
 
 bool Sides::on_surface(TetId t, int i) const {
@@ -94,11 +134,15 @@ void Sides::classify_near_removed(Control& control) {
         : predicates(points), own(solid, predicates) {}
     Predicates predicates;
     Solid own;
+    std::uint32_t last_near = 0;
   };
   PerWorker<Mine> mine(control, points_, solid_);
   for_items(control, dt_.capacity(), kChunk, [&](Worker& worker, std::size_t n) {
     const auto t = static_cast<TetId>(n);
-    if (!dt_.alive(t) || dt_.is_ghost(t) || state(t) != State::unknown || !near_removed(t)) return;
+    if (!dt_.alive(t) || dt_.is_ghost(t) || state(t) != State::unknown ||
+        !near_removed(t, mine[worker].last_near)) {
+      return;
+    }
     const VertexId* v = dt_.vertices(t);
     set(t, state_of(mine[worker].own.classify({v[0], v[1], v[2], v[3]})));
   });
@@ -138,7 +182,7 @@ Side Sides::of(TetId t) {
 }
 
 Sides::State Sides::find_out(TetId start) {
-  if (near_removed(start)) {
+  if (near_removed(start, last_near_)) {
     set(start, classify(start));
     return state(start);
   }
@@ -153,7 +197,7 @@ Sides::State Sides::find_out(TetId start) {
       const TetId u = dt_.neighbor(t, i);
       if (!dt_.is_ghost(u) && state(u) == State::asked) continue;
       if (!dt_.is_ghost(u) && state(u) == State::unknown) {
-        if (near_removed(u)) {
+        if (near_removed(u, last_near_)) {
           set(u, classify(u));
         } else {
           set(u, State::asked);
@@ -181,7 +225,9 @@ void Sides::tell(TetId source) {
     telling.pop_back();
     for (int i = 0; i < 4; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (dt_.is_ghost(u) || state(u) != State::unknown || near_removed(u)) continue;
+      if (dt_.is_ghost(u) || state(u) != State::unknown || near_removed(u, last_near_)) {
+        continue;
+      }
       set(u, through(u, dt_.mirror(t, i)));
       telling.push_back(u);
     }
@@ -189,6 +235,7 @@ void Sides::tell(TetId source) {
 }
 
 void Sides::validate() const {
+  std::uint32_t last_near = 0;
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     const State here = state(t);
@@ -199,8 +246,9 @@ void Sides::validate() const {
       const State seen = through(t, i);
       if (seen == State::unknown || seen == here) continue;
       const TetId u = dt_.neighbor(t, i);
-      DELMESHER_CHECK(near_removed(t) || (!dt_.is_ghost(u) && near_removed(u)),
-                      "two tetrahedra disagree about the surface between them");
+      DELMESHER_CHECK(
+          near_removed(t, last_near) || (!dt_.is_ghost(u) && near_removed(u, last_near)),
+          "two tetrahedra disagree about the surface between them");
     }
   }
 }

@@ -50,8 +50,9 @@ class Sides {
 
   State state(TetId t) const { return static_cast<State>(note(dt_, t, Note::side)); }
   void set(TetId t, State s) { note(dt_, t, Note::side) = static_cast<std::uint8_t>(s); }
-  // May the tetrahedron touch the removed part? Conservative.
-  bool near_removed(TetId t) const;
+  // May the tetrahedron touch the removed part? Conservative. `last_near`: the box of it to be
+  // asked first; afterwards one that the tetrahedron is near, if there is one.
+  bool near_removed(TetId t, std::uint32_t& last_near) const;
   // Is face i of t part of the input surface?
   bool on_surface(TetId t, int i) const;
   State classify(TetId t);
@@ -65,6 +66,7 @@ class Sides {
   const Subfacets& subfacets_;
   std::span<const Box> removed_;
   BoxTree removed_boxes_;
+  std::uint32_t last_near_ = 0;
   Solid solid_;
 };
 

@@ -1,6 +1,7 @@
 #include "mesher/surface/solid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -241,10 +242,11 @@ struct Solid::Impl {
     Cut result;
     const auto passes_by = [&](std::uint32_t n) {
       const CuttingTriangle& triangle = shared->triangle[n];
-      if (triangle.is_apart(points, tetrahedron)) return true;
       const std::uint32_t t = shared->cutting[n];
       const Position position = position_of(tetrahedron, t, triangle.plane());
-      for (unsigned i = 0; i < 4; ++i) {
+      if (position.one_side && !position.has_face()) return true;
+      if (triangle.is_apart(points, tetrahedron)) return true;
+      for (unsigned i = 0; position.has_face() && i < 4; ++i) {
         if ((position.near | 1U << i) == 0b1111) result.faces |= 1U << i;
       }
       if (position.one_side) return true;
@@ -270,8 +272,10 @@ struct Solid::Impl {
 
   // Of a tetrahedron and the plane of a triangle.
   struct Position {
-    unsigned near = 0;      // its corners that are not certainly off the plane, by bit
+    unsigned near = 0;      // its corners that are not certainly off the plane, by bit; some of
+                            // them if it has corners on both sides
     bool one_side = false;  // no corner is off the plane on the other side; false if in doubt
+    bool has_face() const { return std::popcount(near) >= 3; }  // that may be in the plane
   };
 
   Position position_of(const Tetrahedron& tetrahedron, std::uint32_t t,
@@ -280,7 +284,7 @@ struct Solid::Impl {
     const PlaneId own = topology.facet_plane[topology.facet_of[t]];
     Position result;
     bool above = false, below = false, known = true;
-    for (unsigned k = 0; k < 4; ++k) {
+    for (unsigned k = 0; k < 4 && !(above && below); ++k) {
       const int side = plane.side(points.approximation(tetrahedron[k]));
       above |= side > 0;
       below |= side < 0;
