@@ -49,17 +49,19 @@ struct Sizes {
   double volume, uu, vv, ww, pp, qq, rr, abc, abd, acd, bcd;
 };
 
+// Of the dihedral angles, squared sine: |n_f| |n_g| sin = 6 V |edge| for the two faces at an edge.
+inline double smallest_dihedral(const Sizes& s) {
+  const double h_abc = s.volume / s.abc, h_abd = s.volume / s.abd, h_acd = s.volume / s.acd,
+               h_bcd = s.volume / s.bcd;
+  return std::min({s.uu * h_abc * h_abd, s.vv * h_abc * h_acd, s.ww * h_abd * h_acd,
+                   s.pp * h_abc * h_bcd, s.qq * h_abd * h_bcd, s.rr * h_acd * h_bcd});
+}
+
 // `center_squared`: of the circumcentre from a, times twice the volume.
 template <class CenterSquared>
 inline Quality quality_of(const Sizes& s, const Quality& least, CenterSquared&& center_squared) {
-  // |n_f| |n_g| sin = 6 V |edge| for the two faces at an edge.
-  const double h_abc = s.volume / s.abc, h_abd = s.volume / s.abd, h_acd = s.volume / s.acd,
-               h_bcd = s.volume / s.bcd;
-  const double dihedral =
-      std::min({s.uu * h_abc * h_abd, s.vv * h_abc * h_acd, s.ww * h_abd * h_acd,
-                s.pp * h_abc * h_bcd, s.qq * h_abd * h_bcd, s.rr * h_acd * h_bcd});
   Quality result;
-  result.dihedral = positive_or_zero(dihedral);
+  result.dihedral = positive_or_zero(smallest_dihedral(s));
   if (result.dihedral < least.dihedral) return result;
   const double face =
       std::min({smallest_angle(s.abc, s.uu, s.vv, s.pp), smallest_angle(s.abd, s.uu, s.ww, s.qq),
@@ -73,15 +75,16 @@ inline Quality quality_of(const Sizes& s, const Quality& least, CenterSquared&& 
   return result;
 }
 
-// As quality(), by pairs of doubles.
+// As quality(), of a nearly flat tetrahedron, by pairs of doubles where doubles cannot tell.
 Quality accurate_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                          const Quality& least);
 
 }  // namespace detail
 
-// As soon as one value is below `least`, the values after it stay 0. All are good to about 1e-6 of
-// themselves, however flat or thin the tetrahedron is: otherwise what has to be no worse than
-// something flat could be flatter by as much as doubles round, or inverted ones.
+// As soon as one value is below `least`, the values after it stay 0; of a nearly flat tetrahedron
+// all may be 0 then. All are good to about 1e-6 of themselves, however flat or thin the tetrahedron
+// is: otherwise what has to be no worse than something flat could be flatter by as much as doubles
+// round, or inverted ones.
 inline Quality quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                        const Quality& least = {}) {
   // Below this, six times the volume over the product of three edges, doubles tell little.

@@ -23,6 +23,10 @@ Quality of(const Points& p, const Quality& least = {}) {
   return quality(p[0], p[1], p[2], p[3], least);
 }
 
+bool reaches(const Quality& q, const Quality& least) {
+  return q.dihedral >= least.dihedral && q.face >= least.face && q.gamma >= least.gamma;
+}
+
 Points positive(Points p) {
   if (of(p).dihedral == 0) std::swap(p[2], p[3]);
   return p;
@@ -157,6 +161,14 @@ TEST(Quality, OfNeedlesAndFlatTetrahedraIsAccurate) {
       const ExactQuality exact(turned);
       const Quality q = of(turned);
       EXPECT_EQ(q.dihedral > 0, exact.positive);
+      for (const float factor : {0.5F, 0.999F, 1.001F, 3.0F}) {
+        for (const Quality& least : {Quality{factor * q.dihedral, 0, 0},
+                                     {0, factor * q.face, 0},
+                                     {factor * q.dihedral, factor * q.face, 0},
+                                     {1e-9F, 1e-9F, 0}}) {
+          EXPECT_EQ(reaches(of(turned, least), least), reaches(q, least));
+        }
+      }
       if (!exact.positive) continue;
       ++positive;
       EXPECT_NEAR(q.dihedral, exact.dihedral, 1e-5 * exact.dihedral);

@@ -254,12 +254,12 @@ bool Relocation::find_place(const Wedge& wedge, bool fine, Vec3& best) const {
 
 // Squared: the sine of the smallest dihedral angle of the tetrahedra with the corner at x; 0 if it
 // is not above `best`, or one is not positive. (Other measures are beyond the range of floats where
-// all is flat; kNotCounted leaves them out.) What forbids one place often forbids the next.
+// all is flat.) What forbids one place often forbids the next.
 float Relocation::worst_at(std::span<std::pair<Tet, int>> around, const Vec3& x, float best) const {
   float worst = HUGE_VALF;
   for (auto& one : around) {
     const auto& [tet, corner] = one;
-    const Quality q = state_.quality_with(tet, corner, x, kNotCounted);
+    const Quality q = state_.quality_with(tet, corner, x, {best, HUGE_VALF, HUGE_VALF});
     if (!(q.dihedral > best)) {
       std::swap(one, around.front());
       return 0;
