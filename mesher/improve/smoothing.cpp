@@ -210,6 +210,7 @@ bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least, dou
 }
 
 bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {
+  if (!state_.edges_are_bounded()) return false;
   const Tet& tet = state_.mesh.tet(t);
   const RegionId region = state_.mesh.region(t);
   for (int k = 0; k < 4; ++k) {

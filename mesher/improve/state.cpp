@@ -6,6 +6,7 @@ State::State(NumberedMesh numbered, const SurfaceTopology* surface, std::span<co
              PointStore& points, Predicates& predicates, const Goals& goals)
     : ExactMesh(std::move(numbered), surface, given, goals.as_given, points, predicates),
       goals_(goals) {
+  bound_edges(true);
   measure_by(Measure::shape);
   for (TetId t = 0; t < mesh.slots(); ++t) note(t);
 }

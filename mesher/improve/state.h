@@ -113,7 +113,8 @@ class State final : public ExactMesh {
   }
   // Is an edge between these longer than wanted, in tetrahedra of the region? Edges that exist may
   // stay, and those that the input has come back however long they are.
-  void bound_edges(bool bound) { edges_are_bounded_ = bound; }
+  void bound_edges(bool bound) { edges_are_bounded_ = bound && goals_.bound_edges(); }
+  bool edges_are_bounded() const { return edges_are_bounded_; }
   bool too_long(const Vec3& x, const Vec3& y, RegionId region) const {
     if (!edges_are_bounded_) return false;
     const double longest = goals_.max_edge_in(region);
@@ -139,7 +140,7 @@ class State final : public ExactMesh {
   void note(TetId t) override;
 
   Goals goals_;
-  bool edges_are_bounded_ = true;
+  bool edges_are_bounded_ = false;
   Measure measure_ = Measure::shape;
   Quality target_, per_target_;              // of what is measured
   float least_score_ = 0, least_gamma_ = 0;  // of what a change makes
