@@ -10,6 +10,15 @@ namespace {
 
 constexpr int kBits = 20;  // per axis: three of them fit a 64-bit key, with room for the round
 
+// Leaves two bits of room above each bit of a number of kBits.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffffU;
+  x = (x | x << 16) & 0x1f0000ff0000ffU;
+  x = (x | x << 8) & 0x100f00f00f00f00fU;
+  x = (x | x << 4) & 0x10c30c30c30c30c3U;
+  return (x | x << 2) & 0x1249249249249249U;
+}
+
 // Skilling, "Programming the Hilbert curve" (2004): transposed index of a grid point.
 std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   constexpr std::uint32_t kTop = 1U << (kBits - 1);
@@ -31,11 +40,7 @@ std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   for (std::uint32_t q = kTop; q > 1; q >>= 1) {
     if ((x[2] & q) != 0) t ^= q - 1;
   }
-  std::uint64_t key = 0;
-  for (int bit = kBits - 1; bit >= 0; --bit) {
-    for (int i = 0; i < 3; ++i) key = (key << 1) | (((x[i] ^ t) >> bit) & 1U);
-  }
-  return key;
+  return spread(x[0] ^ t) << 2 | spread(x[1] ^ t) << 1 | spread(x[2] ^ t);
 }
 
 std::uint32_t hash(std::uint32_t x) {
