@@ -67,15 +67,17 @@ bool Insertion::try_from(TetId t, Vec3 x) {
   operation_.begin(site_.facet, site_.piece);
   operation_.add(t, at(x));
   // Where x went, other faces are the worst.
+  bool settled = false;
   for (std::size_t size = 0; size < operation_.cavity().size();) {
     size = operation_.cavity().size();
     grow(x);
     if (operation_.crosses_facets()) return false;
-    settle(x);
+    if (settled && operation_.cavity().size() == size) break;
+    settled = settle(x);
   }
   const Quality before = state_.worst_of(operation_.cavity());
   // Where the point really goes is so near that no more can be gained there.
-  if (!(state_.score(worst()->value) > kOfWorth * worth(before)) ||
+  if (!(worst()->value.score > kOfWorth * worth(before)) ||
       !operation_.find_change([&](VertexId v) { return may_go(v); })) {
     return false;
   }
@@ -94,7 +96,7 @@ bool Insertion::fits(const Place& place, const Quality& before) {
   for (Face& face : operation_.skin()) {
     if (in_cone(face)) face.value = at(place.position).value_of(face.tet, face.face);
   }
-  if (state_.score(worst()->value) < worth(before)) return false;
+  if (worst()->value.score < worth(before)) return false;
   // On the hull nothing beyond a face tells that the point is not beside the faces in its plane.
   const auto is_seen = [&](const auto& edge) {
     return state_.is_positive_with(state_.mesh.tet(edge.tet), edge.corner, place);
@@ -104,7 +106,8 @@ bool Insertion::fits(const Place& place, const Quality& before) {
   return std::ranges::all_of(operation_.skin(), [&](const Face& face) {
     if (!in_cone(face)) return true;
     const Tet& tet = state_.mesh.tet(face.tet);
-    return State::reaches(face.value, least) && state_.is_positive_with(tet, face.face, place) &&
+    return State::reaches(face.value.quality, least) &&
+           state_.is_positive_with(tet, face.face, place) &&
            std::ranges::none_of(kFace[face.face], [&](int k) {
              return state_.counts(face.tet) &&
                     state_.too_long(place.position, state_.position(tet[k]),
@@ -175,7 +178,7 @@ void Insertion::grow(const Vec3& x) {
   while (operation_.cavity().size() < largest) {
     const auto next = face_to_cross();
     if (next == operation_.skin().end()) return;
-    operation_.add(state_.mesh.neighbor(next->tet, next->face), at(x));
+    operation_.cross(next, at(x));
   }
 }
 
@@ -190,19 +193,20 @@ std::vector<Insertion::Face>::const_iterator Insertion::face_to_cross() {
     if (own != skin.end()) return own;
   }
   const auto face = worst();
-  const auto& [tet, i, quality] = *face;
+  const auto& [tet, i, value] = *face;
   const TetId next = mesh.neighbor(tet, i);
-  if (state_.good(quality) || next == kNone || mesh.facet(tet, i) != kNone) return skin.end();
-  const bool enough = operation_.cavity().size() > kSmallCavity &&
-                      state_.score(quality) >= kLeastScore && state_.score(next) >= 1;
+  if (value.score >= 1 || next == kNone || mesh.facet(tet, i) != kNone) return skin.end();
+  const bool enough = operation_.cavity().size() > kSmallCavity && value.score >= kLeastScore &&
+                      state_.score(next) >= 1;
   return enough ? skin.end() : face;
 }
 
 // Of t with x in place of its i-th vertex, as far as it counts.
-Quality Insertion::Judge::value_of(TetId t, int i) const {
+Insertion::Scored Insertion::Judge::value_of(TetId t, int i) const {
   const bool counts = state.counts(t);
   const Quality q = state.quality_with(state.mesh.tet(t), i, x);
-  return counts || !(q.dihedral > 0) ? q : kNotCounted;
+  if (!counts && q.dihedral > 0) return in_plane();
+  return {q, state.score(q)};
 }
 
 std::vector<Insertion::Face>::const_iterator Insertion::worst() {
@@ -210,21 +214,20 @@ std::vector<Insertion::Face>::const_iterator Insertion::worst() {
   auto worst = skin.begin();
   float least = HUGE_VALF;
   for (auto face = skin.begin(); face != skin.end(); ++face) {
-    const float score = state_.score(face->value);
-    if (!(score < least)) continue;
-    least = score;
+    if (!(face->value.score < least)) continue;
+    least = face->value.score;
     worst = face;
   }
   return worst;
 }
 
-// Moves x to where the worst face is better.
-void Insertion::settle(Vec3& x) {
+// Moves x to where the worst face is better. Is there no such place, as far as was looked?
+bool Insertion::settle(Vec3& x) {
   constexpr int kRounds = 6;
   build_cone();
   for (int round = 0; round < kRounds; ++round) {
     const Face& worst_face = *worst();
-    const float before = state_.score(worst_face.value);
+    const float before = worst_face.value.score;
     const Vec3 towards =
         allowed_offset(site_.mobility, site_.axis,
                        subtract(state_.best_apex_below(worst_face.tet, worst_face.face), x));
@@ -236,12 +239,15 @@ void Insertion::settle(Vec3& x) {
       success = true;
       break;
     }
-    if (!success) return;
+    if (!success) return true;
     std::size_t n = 0;
     for (Face& face : operation_.skin()) {
-      if (in_cone(face)) face.value = cone_.quality(n++);
+      if (!in_cone(face)) continue;
+      const Quality q = cone_.quality(n++);
+      face.value = {q, state_.score(q)};
     }
   }
+  return false;
 }
 
 bool Insertion::in_cone(const Face& face) const {

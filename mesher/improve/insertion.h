@@ -27,13 +27,17 @@ class Insertion {
   struct Judge;
   using Operation = InsertPoint<Judge>;
   using Face = Operation::Face;
+  struct Scored {
+    Quality quality;
+    float score;
+  };
   struct Judge {
-    using Value = Quality;
+    using Value = Scored;
     const State& state;
     Vec3 x;  // where the point is
 
-    static Quality in_plane() { return kNotCounted; }
-    Quality value_of(TetId t, int i) const;
+    static Scored in_plane() { return {kNotCounted, HUGE_VALF}; }
+    Scored value_of(TetId t, int i) const;
   };
 
   Judge at(const Vec3& x) const { return {state_, x}; }
@@ -48,7 +52,7 @@ class Insertion {
   void grow(const Vec3& x);
   std::vector<Face>::const_iterator face_to_cross();
   std::vector<Face>::const_iterator worst();
-  void settle(Vec3& x);
+  bool settle(Vec3& x);
   bool in_cone(const Face& face) const;
   void build_cone();
   bool is_better_at(const Vec3& x, float score);

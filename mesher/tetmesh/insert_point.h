@@ -55,18 +55,12 @@ class InsertPoint {
     mark_.resize(mesh_.slots(), 0);
     next_epoch(epoch_, mark_);
   }
-  void add(TetId t, const Judge& judge) {
-    cavity_.push_back(t);
-    mark_[t] = epoch_;
-    for (int i = 0; i < 4; ++i) {
-      const TetId u = mesh_.neighbor(t, i);
-      if (!contains(u)) {
-        skin_.push_back({t, i, is_own(t, i) ? Judge::in_plane() : judge.value_of(t, i)});
-        continue;
-      }
-      crosses_ = crosses_ || (mesh_.facet(t, i) != kNone && !is_own(t, i));
-      covered_ = true;
-    }
+  void add(TetId t, const Judge& judge) { add(t, -1, judge); }
+  // The tetrahedron beyond a face of the skin.
+  void cross(typename std::vector<Face>::const_iterator face, const Judge& judge) {
+    const auto [tet, i, value] = *face;
+    skin_.erase(face);
+    add(mesh_.neighbor(tet, i), mesh_.mirror(tet, i), judge);
   }
   const std::vector<TetId>& cavity() const { return cavity_; }
   bool contains(TetId t) const { return t != kNone && mark_[t] == epoch_; }
@@ -112,6 +106,21 @@ class InsertPoint {
   const std::vector<FaceEdge>& inner() const { return inner_; }
 
  private:
+  // `from`: its face that is no longer on the skin, -1 if none is known.
+  void add(TetId t, int from, const Judge& judge) {
+    cavity_.push_back(t);
+    mark_[t] = epoch_;
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = mesh_.neighbor(t, i);
+      if (!contains(u)) {
+        skin_.push_back({t, i, is_own(t, i) ? Judge::in_plane() : judge.value_of(t, i)});
+        continue;
+      }
+      crosses_ = crosses_ || (mesh_.facet(t, i) != kNone && !is_own(t, i));
+      covered_ = covered_ || i != from;
+    }
+  }
+
   template <class MayGo>
   bool keeps_vertices(const MayGo& may_go) {
     kept_.resize(mesh_.vertices(), 0);
