@@ -75,7 +75,7 @@ class RemoveEdge {
  private:
   bool find_ring(TetId t, const Judge& judge) {
     if (!collect_ring(t, judge)) return false;
-    const bool closed = vertex_.size() == ring().size();
+    const bool closed = vertices_ == ring().size();
     if (closed) return ring().size() >= 3;
     const TetId first = beginning(t);
     return first == t || (first != kNone && collect_ring(first, judge));
@@ -83,29 +83,35 @@ class RemoveEdge {
 
   // From `first` on, so that (a, b, vertex[n], vertex[n + 1]) is the n-th tetrahedron.
   bool collect_ring(TetId first, const Judge& judge) {
-    std::vector<TetId>& ring = change_.removed;
-    ring.clear();
-    vertex_.clear();
-    facet_.clear();
+    std::array<TetId, kLongest> ring;
+    std::size_t n = 0;
     FacetId only = kNone;
-    for (TetId u = first; u != first || ring.empty();) {
-      if (ring.size() == longest_ || judge.is_known(u)) return false;
-      const auto [x, y] = opposite_edge(mesh_.index_of(u, a_), mesh_.index_of(u, b_));
+    TetId u = first;
+    // The corners of u that are not on the edge: the second one is also in the next tetrahedron.
+    auto [x, y] = opposite_edge(mesh_.index_of(first, a_), mesh_.index_of(first, b_));
+    do {
+      if (n == longest_ || judge.is_known(u)) return false;
       const FacetId facet = mesh_.facet(u, y);
       // An edge between two facets stays.
       if (facet != kNone && only != kNone && facet != only) return false;
       if (facet != kNone) only = facet;
-      ring.push_back(u);
-      vertex_.push_back(mesh_.tet(u)[x]);
-      facet_.push_back(facet);
+      ring[n] = u;
+      vertex_[n] = mesh_.tet(u)[x];
+      facet_[n++] = facet;
+      const VertexId shared = mesh_.tet(u)[y];
       const TetId next = mesh_.neighbor(u, x);
+      vertices_ = n;
       if (next == kNone) {
-        vertex_.push_back(mesh_.tet(u)[y]);
-        facet_.push_back(mesh_.facet(u, x));
-        return true;
+        vertex_[n] = shared;
+        facet_[n] = mesh_.facet(u, x);
+        ++vertices_;
+        break;
       }
+      y = mesh_.mirror(u, x);
+      x = mesh_.index_of(next, shared);
       u = next;
-    }
+    } while (u != first);
+    change_.removed.assign(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(n));
     return true;
   }
 
@@ -123,10 +129,10 @@ class RemoveEdge {
   // Into the polygons between faces of the surface. False if the edge may not go.
   bool split_ring() {
     const std::size_t n = ring().size();
-    const bool open = vertex_.size() > n;
+    const bool open = vertices_ > n;
     std::vector<std::size_t>& walls = walls_;
     walls.clear();
-    for (std::size_t k = 0; k < vertex_.size(); ++k) {
+    for (std::size_t k = 0; k < vertices_; ++k) {
       if (facet_[k] != kNone) walls.push_back(k);
     }
     polygons_.clear();
@@ -135,7 +141,7 @@ class RemoveEdge {
       Polygon p;
       p.size = static_cast<int>(steps) + 1;
       p.region = mesh_.region(ring()[from]);
-      for (std::size_t k = 0; k <= steps; ++k) p.vertex[k] = vertex_[(from + k) % vertex_.size()];
+      for (std::size_t k = 0; k <= steps; ++k) p.vertex[k] = vertex_[(from + k) % vertices_];
       polygons_.push_back(p);
     };
     if (walls.empty()) {
@@ -203,10 +209,11 @@ class RemoveEdge {
   const MeshTopology& mesh_;
   VertexId a_ = 0, b_ = 0;
   std::size_t longest_ = kLongest;
-  Change change_;                   // removed: tetrahedra a, b, vertex[n], vertex[n + 1]
-  std::vector<VertexId> vertex_;    // one more than tetrahedra if the ring is open
-  std::vector<FacetId> facet_;      // of the face a, b, vertex[n]
-  std::vector<std::size_t> walls_;  // numbers of the faces of the surface
+  Change change_;             // removed: tetrahedra a, b, vertex[n], vertex[n + 1]
+  std::size_t vertices_ = 0;  // one more than tetrahedra if the ring is open
+  std::array<VertexId, kLongest + 1> vertex_{};
+  std::array<FacetId, kLongest + 1> facet_{};  // of the face a, b, vertex[n]
+  std::vector<std::size_t> walls_;             // numbers of the faces of the surface
   std::vector<Polygon> polygons_;
   std::array<std::array<Value, kLongest + 1>, kLongest + 1> best_;  // of triangulate()
 };
