@@ -160,7 +160,8 @@ Finding judged(const Surface& surface, const Result& result, const oracles::Prom
   const delmesher::Statistics& s = result.statistics;
   const std::uint64_t left = s.rounding_inverted + s.rounding_flat;
   // A run with facets less planar may leave none, but had no more vertices.
-  if (left + s.rounding_inexact > 0 && s.planar_limit == delmesher::Limit::size) {
+  if (left + s.rounding_inexact > 0 &&
+      (s.planar_limit == delmesher::Limit::size || s.planar_limit == delmesher::Limit::budget)) {
     less_planar.take();
     return {};
   }
@@ -244,6 +245,7 @@ Options options_for(const Surface& surface) {
   options.gabriel = (hash >> 16) % 2 == 0;
   options.improve = (hash >> 19) % 4 != 0;
   if ((hash >> 24) % 4 != 0) options.size = 0;
+  if ((hash >> 26) % 8 == 0) options.budget = kMostVertices;
   constexpr double kPlanar[] = {delmesher::kPlanarAuto, delmesher::kPlanarAuto, 0, 1e-4};
   options.planar = kPlanar[(hash >> 17) % 4];
   if ((hash >> 7) % 8 == 0) options.max_edge = size / 4;
@@ -258,6 +260,7 @@ Options options_for(const Surface& surface) {
 // the refinement.
 Options coarser(Options options) {
   options.max_edge = options.chamfer_radius = options.size = 0;
+  options.budget = 0;
   options.size_field.clear();
   options.gabriel = false;
   options.region = delmesher::Region::interior;
@@ -268,7 +271,8 @@ Options coarser(Options options) {
 // A surface that would need more vertices than the limit is meshed with coarser options instead.
 Result meshed(const Surface& surface, Options& options) {
   Result result = delmesher::tetrahedralize(surface, options);
-  if (result.status.limit != delmesher::Limit::size) return result;
+  const delmesher::Limit limit = result.status.limit;
+  if (limit != delmesher::Limit::size && limit != delmesher::Limit::budget) return result;
   options = coarser(options);
   return delmesher::tetrahedralize(surface, options);
 }

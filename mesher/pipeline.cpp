@@ -24,9 +24,9 @@
 #include "mesher/planar/planar.h"
 #include "mesher/policies/as_given.h"
 #include "mesher/policies/budget.h"
+#include "mesher/policies/budget_size.h"
 #include "mesher/policies/default_size.h"
 #include "mesher/policies/fallback.h"
-#include "mesher/policies/filling.h"
 #include "mesher/policies/plain.h"
 #include "mesher/policies/planar_runs.h"
 #include "mesher/policies/thinned_rounding.h"
@@ -595,9 +595,10 @@ struct Runs {
   PlanarRuns planes;
   bool may_keep;
   Result best;
+  bool is_kept = false;
 
   bool good_enough() const { return !is_too_heavy() && PlanarRuns::good_enough(best); }
-  bool is_too_heavy() const { return may_keep && planes.is_too_heavy(best); }
+  bool is_too_heavy() const { return may_keep && !is_kept && planes.is_too_heavy(best); }
 
   Result run_with(Planes how, const Options& options) {
     return run([&](Session& s, Recorder& recorder) { return mesh_with(how, given, s, recorder); },
@@ -605,10 +606,17 @@ struct Runs {
   }
   void run_again(Planes how) { PlanarRuns::keep_better(run_with(how, planes.options()), best); }
   void keep_surface() {
+    is_kept = true;
+    const Status refused = std::move(best.status);
     const Statistics split = std::move(best.statistics);
     best = run_keeping(given, planes.kept_options(), frame);
-    best.statistics.ladder += split.ladder;
-    best.statistics.predicted_tetrahedra = split.predicted_tetrahedra;
+    Statistics& kept = best.statistics;
+    kept.ladder += split.ladder;
+    kept.predicted_tetrahedra = split.predicted_tetrahedra;
+    // The smaller number is told.
+    const bool took_fewer =
+        split.final.tetrahedra > 0 && split.final.tetrahedra < kept.final.tetrahedra;
+    if (best.status.limit == Limit::budget && took_fewer) best.status = refused;
   }
 };
 
@@ -625,7 +633,7 @@ Result best_of_runs(const Surface& surface, const Options& given, const LocalFra
                     bool may_keep = true) {
   Options options = given;
   options.surface = surface_choice(given);
-  Runs runs{{surface}, frame, PlanarRuns(options), may_keep, {}};
+  Runs runs{{surface}, frame, PlanarRuns(options), may_keep, {}, false};
   runs.best =
       runs.run_with(goes_back(options) ? Planes::while_refined : Planes::to_the_end, options);
   RungCounts taken;
@@ -644,7 +652,7 @@ struct Sizing {
   const Clock::time_point start = Clock::now();
   Result best{};
   DefaultSize chosen{};
-  std::optional<Filling> filling{};
+  std::optional<BudgetSize> filling{};
 
   bool good_enough() const { return chosen.size == 0 && (!filling || filling->is_done()); }
   bool is_kept() const { return best.statistics.ladder[Rung::keep_surface] > 0; }
@@ -653,7 +661,7 @@ struct Sizing {
     best = options.surface == SurfaceChoice::keep ? run_kept(surface, options, frame)
                                                   : best_of_runs(surface, options, frame);
     if (may_choose_size(options) && best.status.ok()) chosen = default_size(best);
-    if (Filling::is_wanted(options, best)) filling.emplace(options, best);
+    if (BudgetSize::is_wanted(options, best)) filling.emplace(options, best);
   }
   Result run_with(double size, std::uint64_t most_vertices) {
     Options sized = options;
@@ -701,7 +709,9 @@ struct Sizing {
     Result sized = run_with(size, options.max_vertices);
     const Status& status = sized.status;
     const std::uint64_t made = sized.statistics.final.tetrahedra;
-    if (status.ok() ? PlanarRuns::is_worse(sized, best) : is_of_the_mesh(status.limit)) {
+    // Lengths that no one asked for keep to all limits but that of time.
+    const bool is_large = status.limit == Limit::size || is_of_the_mesh(status.limit);
+    if (status.ok() ? PlanarRuns::is_worse(sized, best) : is_large) {
       filling->is_too_much(static_cast<double>(made));
       return;
     }
@@ -744,10 +754,9 @@ Result run_plain_cdt(const Surface& surface, const Options& options, const Local
              options, frame);
 }
 
-// A mesh of another surface within the tolerance.
-template <Task* kTask>
+// A mesh of another surface, within the tolerance.
 Result run_within(const Surface& surface, const Options& options, const LocalFrame& frame) {
-  if (options.tolerance == 0) return kTask(surface, options, frame);
+  if (options.tolerance == 0) return run_mesh(surface, options, frame);
   Result result;
   remesh::Remeshed remeshed;
   Control control(options);
@@ -766,7 +775,7 @@ Result run_within(const Surface& surface, const Options& options, const LocalFra
       const double spent = std::accumulate(seconds.begin(), seconds.end(), 0.0);
       left.time_limit_seconds = std::max(left.time_limit_seconds - spent, 1e-3);
     }
-    result = kTask(remeshed.surface, left, frame);
+    result = run_mesh(remeshed.surface, left, frame);
   }
   result.warnings.insert(result.warnings.begin(), remeshed.warnings.begin(),
                          remeshed.warnings.end());
@@ -783,7 +792,7 @@ Result tetrahedralize(const Surface& surface, const Options& given) {
   Options options = given;
   options.max_edge = bound_on_edges(given);
   if (options.regions != Regions::solid) return in_ordinary_units(surface, options, run_complex);
-  return in_ordinary_units(surface, options, run_within<run_mesh>);
+  return in_ordinary_units(surface, options, run_within);
 }
 
 Result constrained_delaunay(const Surface& surface, const CdtOptions& given) {

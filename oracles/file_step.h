@@ -15,7 +15,8 @@ class FileStep : public Step {
  protected:
   // Are all coordinates of the file finite?
   bool check_finite();
-  // Nodes of edges, the number of vertices, and what the file says of its planar facets.
+  // Nodes of edges, the numbers of vertices and tetrahedra, and what the file says of its planar
+  // facets.
   void check_contents();
   // The tetrahedra on points, which have the vertices of the input first; their neighbours and
   // signs. False if nothing else can be asked. `is_part`: as of check_complex.

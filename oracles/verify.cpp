@@ -119,8 +119,14 @@ void allow_sizes(const Polyhedron& input, const MeshFile& mesh, Promise& promise
     return cross(minus(vertices[corners[1]], a), minus(vertices[corners[2]], a));
   };
   double volume = 0, area = 0;
+  std::vector<double> edges;
   for (const Tet& tet : mesh.tetrahedra) {
     if (!are_there(tet, mesh.vertices)) continue;  // reported later
+    for (std::size_t i = 0; i < 4 && promise.budget > 0; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        edges.push_back(distance(mesh.vertices[tet[i]], mesh.vertices[tet[j]]));
+      }
+    }
     const Position height = minus(mesh.vertices[tet[3]], mesh.vertices[tet[0]]);
     volume += std::fabs(dot(normal_of(tet, mesh.vertices), height)) / 6;
   }
@@ -128,7 +134,12 @@ void allow_sizes(const Polyhedron& input, const MeshFile& mesh, Promise& promise
     if (!are_there(face, input.vertices)) continue;
     area += distance(normal_of(face, input.vertices), {}) / 2;
   }
-  promise.allow_sizes(diagonal_of(input), volume, area);
+  std::erase_if(edges, [](double length) { return !std::isfinite(length); });
+  constexpr double kCommon = 0.95;
+  const auto common = static_cast<std::ptrdiff_t>(kCommon * static_cast<double>(edges.size()));
+  std::nth_element(edges.begin(), edges.begin() + common, edges.end());
+  promise.allow_sizes(diagonal_of(input), volume, area,
+                      edges.empty() ? 0 : edges[static_cast<std::size_t>(common)]);
 }
 
 // Every deviation; other figures of lengths stay.

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <regex>
 #include <string>
 
@@ -78,6 +81,43 @@ TEST(Budget, IsNearlyUsedUp) {
   }
 }
 
+TEST(Budget, GoesWithBoundsOnEdgesAndVertices) {
+  Surface surface;
+  samples::add_box(surface, {0, 0, 0}, {3, 1, 1});
+  Options options;
+  options.budget = 4000;
+  options.max_edge = 0.5;
+  options.want_exact = true;
+  const Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_GE(result.mesh.tetrahedra.size(), 3600U);
+  expect_verified(surface, options, result);
+  options.max_vertices = 500;
+  const Result few = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(few.status.ok()) << few.status.message;
+  EXPECT_LE(few.mesh.vertices.size(), 500U);
+  EXPECT_LT(few.mesh.tetrahedra.size(), result.mesh.tetrahedra.size());
+}
+
+TEST(Budget, IsInterruptedInAnyRun) {
+  Surface surface;
+  samples::add_box(surface, {0, 0, 0}, {3, 1, 1});
+  Options options;
+  options.budget = 4000;
+  int filtered = 0;
+  double before = 0;
+  options.progress = [&](const delmesher::Progress& progress) {
+    const bool filters = progress.phase == delmesher::Phase::filter;
+    filtered += filters && before != 1 ? 1 : 0;
+    before = filters ? 1 : 0;
+    return filtered < 2;  // the second run
+  };
+  const Result result = delmesher::tetrahedralize(surface, options);
+  EXPECT_EQ(filtered, 2);
+  EXPECT_EQ(result.status.code, StatusCode::interrupted);
+  EXPECT_TRUE(result.mesh.tetrahedra.empty());
+}
+
 // The surface alone takes as many as the message says, no fewer.
 TEST(Budget, ThatIsTooSmallIsRefusedWithTheNumberThatFits) {
   const Surface surface = thin(1e-2, true);
@@ -88,6 +128,7 @@ TEST(Budget, ThatIsTooSmallIsRefusedWithTheNumberThatFits) {
   std::smatch needs;
   ASSERT_TRUE(std::regex_search(refused.status.message, needs, std::regex("has ([0-9]+) tetra")))
       << refused.status.message;
+  EXPECT_EQ(refused.statistics.ladder[delmesher::Rung::no_planes], 0U);
   options.budget = std::stoull(needs[1]) - 1;
   EXPECT_FALSE(delmesher::tetrahedralize(surface, options).status.ok());
   ++options.budget;
@@ -96,17 +137,42 @@ TEST(Budget, ThatIsTooSmallIsRefusedWithTheNumberThatFits) {
   EXPECT_EQ(fits.mesh.tetrahedra.size(), options.budget);
 }
 
+// A cube with triangles of a quarter of its side.
+Surface fine_cube() {
+  Surface cube, surface;
+  samples::add_box(cube, {0, 0, 0}, {1, 1, 1});
+  Options options;
+  options.size = 0.25;
+  const delmesher::TetMesh mesh = delmesher::tetrahedralize(cube, options).mesh;
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  for (const auto& triangle : mesh.boundary) {
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto next = static_cast<std::uint32_t>(surface.vertices.size());
+      const auto [at, is_new] = numbers.emplace(triangle[k], next);
+      if (is_new) surface.vertices.push_back(mesh.vertices[triangle[k]]);
+      corners[k] = at->second;
+    }
+    surface.triangles.push_back(corners);
+  }
+  return surface;
+}
+
 // Every triangle is one face still; only the volume has more vertices.
 TEST(Budget, KeepsASurfaceThatIsToBeKept) {
-  const Surface surface = thin(1e-2, false);
+  const Surface surface = fine_cube();
   Options options;
   options.surface = delmesher::SurfaceChoice::keep;
-  options.budget = 2000;
+  const Result coarse = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(coarse.status.ok()) << coarse.status.message;
+  options.budget = 2 * coarse.mesh.tetrahedra.size();
   options.want_exact = true;
   const Result result = delmesher::tetrahedralize(surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(result.mesh.boundary.size(), surface.triangles.size());
-  EXPECT_LE(result.mesh.tetrahedra.size(), 2000U);
+  EXPECT_LE(result.mesh.tetrahedra.size(), options.budget);
+  EXPECT_GT(result.statistics.chosen_size, 0);
+  EXPECT_GT(result.mesh.tetrahedra.size(), coarse.mesh.tetrahedra.size());
   expect_verified(surface, options, result);
 }
 

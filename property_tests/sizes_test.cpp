@@ -142,13 +142,20 @@ TEST(Sizes, UnaskedAreAsTheDefaultMayBe) {
   const auto of = [](const std::string& options, double diagonal, double volume, double area) {
     oracles::Promise promise;
     EXPECT_EQ(oracles::parse_promise(options, promise), "");
-    promise.allow_sizes(diagonal, volume, area);
+    promise.allow_sizes(diagonal, volume, area, 0.25);
     return promise.longest_unasked / delmesher::kMostOfSize;
   };
   EXPECT_NEAR(of("mesh", std::sqrt(3), 1, 6), std::sqrt(3) / 10, 1e-12);
   EXPECT_NEAR(of("mesh --size auto", std::sqrt(102), 10, 42), std::sqrt(102) / 20, 1e-12);
   EXPECT_NEAR(of("mesh", std::sqrt(8.04), 0.8, 9.6),
               0.999 * 2 * 0.8 / 9.6 - 0x2p-12 * std::sqrt(8.04), 1e-12);
+  // With a budget, those that are longer than nearly all are now.
+  EXPECT_NEAR(of("mesh --budget 100 --max-edge 1", std::sqrt(3), 1, 6),
+              0.999 * 0.25 / delmesher::kMostOfSize, 1e-12);
+  for (const char* options : {"mesh --budget 100 --size none", "mesh --budget 100 --region hull",
+                              "mesh --budget 100 --surface keep"}) {
+    EXPECT_EQ(of(options, std::sqrt(3), 1, 6), 0) << options;
+  }
   for (const char* options : {"mesh --size none", "mesh --size 1", "mesh --max-edge 1", "cdt",
                               "mesh --surface keep", "mesh --planar 0", "mesh --preset paper"}) {
     EXPECT_EQ(of(options, std::sqrt(3), 1, 6), 0) << options;

@@ -100,6 +100,26 @@ TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   EXPECT_EQ(text("err.txt").find("default"), std::string::npos) << text("err.txt");
 }
 
+// Those six again. A size halves the longest edge first, which all of them share.
+TEST_F(Program, ABudgetIsFilledOrRefusedWithTheNumberThatItTakes) {
+  write("in.off", cube());
+  EXPECT_EQ(run("in.off -o mesh.mesh --budget 2000"), 0);
+  EXPECT_NE(text("err.txt").find(" to fill the budget, because there are 6 tetrahedra with"),
+            std::string::npos)
+      << text("err.txt");
+  EXPECT_EQ(text("err.txt").find("nine tenths"), std::string::npos) << text("err.txt");
+  EXPECT_EQ(run("in.off -o mesh.mesh --budget 7"), 0);
+  EXPECT_TRUE(
+      text("err.txt").ends_with("; no length of edges tried makes nine tenths of the budget\n"))
+      << text("err.txt");
+  fs::remove(path("mesh.mesh"));
+  EXPECT_EQ(run("in.off -o mesh.mesh --budget 5"), 5);
+  EXPECT_NE(text("err.txt").find("the mesh has 6 tetrahedra, more than the budget of 5 tetrahedra"),
+            std::string::npos)
+      << text("err.txt");
+  EXPECT_FALSE(fs::exists(path("mesh.mesh")));
+}
+
 TEST_F(Program, WallsAreSplitInEveryFormat) {
   const auto box = [](const char* name, int x) {
     std::string text = std::string("solid ") + name + "\n";

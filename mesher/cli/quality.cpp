@@ -218,12 +218,20 @@ std::string quality_text(const Result& result) {
          "; mean shape " + number(s.mean_gamma, 2) + " (1 is regular)";
 }
 
-std::string size_text(const Statistics& s, bool for_budget) {
-  if (s.chosen_size == 0) return "";
-  return "; edges of " + number(s.chosen_size, 0) +
-         (for_budget ? " to fill the budget, because there are "
-                     : " by default, because there are only ") +
-         std::to_string(s.tetrahedra_without_size) + " tetrahedra with --size none";
+std::string size_text(const Statistics& s, std::uint64_t budget) {
+  std::string text;
+  if (s.chosen_size > 0) {
+    text = "; edges of " + number(s.chosen_size, 0) +
+           (budget > 0 ? " to fill the budget, because there are "
+                       : " by default, because there are only ") +
+           std::to_string(s.tetrahedra_without_size) + " tetrahedra with --size none";
+  }
+  const bool is_full =
+      static_cast<double>(s.final.tetrahedra) >= kFullBudget * static_cast<double>(budget);
+  if (s.ladder[Rung::fill_budget] > 0 && !is_full) {
+    text += "; no length of edges tried makes nine tenths of the budget";
+  }
+  return text;
 }
 
 std::string quality_text(const PlaneResult& result) {

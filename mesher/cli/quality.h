@@ -15,8 +15,8 @@ namespace delmesher::cli {
 std::string quality_text(const Result& result);
 std::string quality_text(const PlaneResult& result);
 
-// Of a size that was chosen; else empty.
-std::string size_text(const Statistics& statistics, bool for_budget);
+// Of a size that was chosen, or of a budget (0: none) that no size fills; else empty.
+std::string size_text(const Statistics& statistics, std::uint64_t budget);
 
 // Warnings where angles are smaller than asked for, or dihedral angles below 5 degrees: where, and
 // whether an edge or a corner of the input forces it. `delta`: Options::delta.

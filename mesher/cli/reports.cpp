@@ -19,7 +19,7 @@ namespace {
 
 const char* limit_name(Limit limit) {
   static constexpr const char* kName[] = {"none",   "vertices",  "time",
-                                          "memory", "precision", "budget"};
+                                          "memory", "precision", "tetrahedra"};
   return kName[static_cast<std::size_t>(limit)];
 }
 

@@ -198,7 +198,7 @@ int Runner::mesh() {
                    return conclude(s.phase_seconds,
                                    {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
                                     s.rounding_inverted, s.rounding_flat, "tetrahedra",
-                                    quality_text(result) + size_text(s, budget > 0)});
+                                    quality_text(result) + size_text(s, budget)});
                  }});
 }
 

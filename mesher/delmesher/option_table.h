@@ -174,9 +174,9 @@ inline constexpr std::tuple kTable{
         &Options::planar, &CheckOptions::planar),
     Row({.name = "budget",
          .help =
-             "tetrahedra at most: with --size auto, edges are so short that at least nine tenths "
-             "of them are made",
-         .bounds = {.high = 1e15},
+             "tetrahedra at most; with --size auto edges are so short that nine tenths of them are "
+             "made, where one of six lengths does that",
+         .bounds = {.high = 4294967294},
          .zero_is_none = true,
          .promised = true,
          .with_kept_surface = true},

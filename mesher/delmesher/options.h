@@ -100,8 +100,9 @@ struct Options : Limits {
   // that takes few tetrahedra.
   double tau = 1e-4;
   // Tetrahedra at most: Limit::budget ends the run where there would be more, with
-  // SurfaceChoice::automatic even if the surface is kept. With kSizeAuto there are at least nine
-  // tenths of them, unless none of six lengths of edges makes so many. 0: any number.
+  // SurfaceChoice::automatic even if the surface is kept. With kSizeAuto there are kFullBudget of
+  // them, unless none of six lengths of edges makes so many; but not with planar 0, approximate or
+  // another region. 0: any number.
   std::uint64_t budget = 0;
   // Corners with an angle below this are chamfered. The paper's proof needs 90.
   double acute = 60;
@@ -208,6 +209,9 @@ struct RepairOptions {
   bool fill = false;
   unsigned threads = 1;  // of the check that the command line makes afterwards
 };
+
+// The share of Options::budget that is to be made at least.
+inline constexpr double kFullBudget = 0.9;
 
 // No edge is to be longer, by max_edge and size; 0: any may be.
 template <class JobOptions>

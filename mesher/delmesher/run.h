@@ -63,7 +63,7 @@ enum class StatusCode : std::uint8_t {
   ok,
   invalid_options,  // the message names the option
   invalid_surface,  // the message names the vertices, edges or triangles
-  limit_reached,    // vertices, time, memory or the precision of doubles
+  limit_reached,    // vertices, tetrahedra, time, memory or the precision of doubles
   interrupted,      // the progress callback returned false
   internal_error,   // a bug; the message says where
   invalid_mesh      // the message names the vertices, triangles or tetrahedra
@@ -75,7 +75,7 @@ enum class Limit : std::uint8_t {
   time,       // Limits::time_limit_seconds
   memory,     // an allocation failed
   precision,  // features are too close to each other for doubles to express
-  budget      // of tetrahedra: Options::budget
+  budget      // of tetrahedra: Options::budget, or what SurfaceChoice::automatic allows
 };
 
 struct Status {

@@ -19,7 +19,7 @@ struct Goals {
   bool everywhere = false;   // tetrahedra outside count as well
   float nearly_good = 0.6F;  // the score that is enough where something else is gained
 
-  bool bound_edges() const { return max_edge > 0 || sizes != nullptr || !region_edges.empty(); }
+  bool bounds_edges() const { return max_edge > 0 || sizes != nullptr || !region_edges.empty(); }
   // In tetrahedra of a region; 0: any.
   double max_edge_in(RegionId region) const {
     const double own = region < region_edges.size() ? region_edges[region] : 0;

@@ -113,7 +113,7 @@ class State final : public ExactMesh {
   }
   // Is an edge between these longer than wanted, in tetrahedra of the region? Edges that exist may
   // stay, and those that the input has come back however long they are.
-  void bound_edges(bool bound) { edges_are_bounded_ = bound && goals_.bound_edges(); }
+  void bound_edges(bool bound) { edges_are_bounded_ = bound && goals_.bounds_edges(); }
   bool edges_are_bounded() const { return edges_are_bounded_; }
   bool too_long(const Vec3& x, const Vec3& y, RegionId region) const {
     if (!edges_are_bounded_) return false;

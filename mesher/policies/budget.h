@@ -12,9 +12,9 @@
 namespace delmesher::policies {
 
 // Tetrahedra may be as many as Options::budget says; else, with SurfaceChoice::automatic, four
-// times those of a kept surface. Where more are predicted, the run ends with Limit::budget. With
-// SurfaceChoice::automatic the filter's tolerance is kFinestTau, and Options::tau where that is too
-// much.
+// times those of a kept surface. Where more are predicted, for a budget far more, or made, the run
+// ends with Limit::budget. With SurfaceChoice::automatic the filter's tolerance is kFinestTau, and
+// Options::tau where that is too much.
 class Budget {
  public:
   // A fraction of the diagonal. Features that are smaller are hardly meant, and few doubles tell

@@ -1,6 +1,7 @@
 // Policy: how long edges are where nothing says so.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "mesher/delmesher.h"

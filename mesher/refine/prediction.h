@@ -30,10 +30,12 @@ struct PredictionOptions {
   double enough = HUGE_VAL;          // a larger prediction may be any number above this
 };
 
-// Tetrahedra of the mesh that refining the complex (without the outer box) will lead to: those
-// inside the solid, or all down to the outer box with Region::hull. An estimate, within a factor of
-// 3 for most models (nine in ten); deterministic, and the same for a scaled model.
-// `facet_kept`: per input facet, 0 if the filter dropped it; empty if it dropped none.
+// Tetrahedra of the final, improved mesh that refining the complex (without the outer box) will
+// lead to: those inside the solid, or all down to the outer box with Region::hull. Without
+// improvement there are half as many again. What a bound on edges takes is added, inside. An
+// estimate, within a factor of 3 for most models (nine in ten); deterministic, and the same for a
+// scaled model. `facet_kept`: per input facet, 0 if the filter dropped it; empty if it dropped
+// none.
 double predict_tetrahedra(const Plc& plc, const SurfaceTopology& topology,
                           const std::vector<std::uint8_t>& facet_kept, const PointStore& points,
                           const PredictionOptions& options, Control& control);

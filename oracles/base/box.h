@@ -21,8 +21,10 @@ struct Box {
     }
   }
   void add(const Box& box) {
-    add(box.low);
-    add(box.high);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], box.low[axis]);
+      high[axis] = std::max(high[axis], box.high[axis]);
+    }
   }
   // Infinite for an empty box.
   double diagonal() const { return distance(high, low); }

@@ -147,7 +147,7 @@ class NearPairs {
   }
 
   // Around the shorter arc between two points of the unit sphere, by chords of pieces: each is
-  // within 1 - sqrt(1 - (chord / 2)^2) of its chord. All roundings are far below 2^-40, unless the
+  // within 1 - sqrt(1 - (chord / 2)^2) of its chord. All roundings are below 2^-40, unless the
   // ends are nearly opposite; then the arc may be anywhere.
   static Box box_of_arc(const Position& from, const Position& to) {
     constexpr int kPieces = 8;

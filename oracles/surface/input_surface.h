@@ -188,7 +188,7 @@ class InputSurface {
 
 // What the upward ray from the centroid of some points, moved by (e, e^2) for an infinitesimal e,
 // crosses of some triangles, whose boxes are in the tree, but of parts that count for nothing;
-// without triangle `except`.
+// without triangle `except`, whose centroid it then is.
 struct RayCrossings {
   std::uint64_t count = 0;
   std::int64_t winding = 0;  // those seen counter-clockwise from above less the others

@@ -1,10 +1,8 @@
 #include "oracles/surface/ray_parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include "oracles/base/edge_key.h"
 #include "oracles/base/union_find.h"
@@ -13,6 +11,7 @@
 namespace tetproof::oracles {
 namespace {
 
+// Infinite boxes have no centre.
 constexpr double kFar = std::numeric_limits<double>::max();
 constexpr BoxTree::Box kEverywhere = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 

@@ -113,7 +113,7 @@ constexpr Option kOptions[] = {
     {"--size-field", kMesh | kImprove, Takes::sizes},
     {"--points", kMesh, Takes::points},
     {"--size-growth", kMesh | kImprove, Takes::number, &Promise::size_growth, 0, 1, true},
-    {"--budget", kMesh, Takes::number, &Promise::budget, 1, 1e15},
+    {"--budget", kMesh, Takes::number, &Promise::budget, 1, 4294967294},
     {"--max-vertices", kAll, Takes::number, &Promise::max_vertices, 1, 4294967294},
     {"--time-limit", kAll, Takes::number, {}, 0, kMost, true},
     {"--threads", kSpace, Takes::number, {}, 0, 1024},
@@ -514,11 +514,13 @@ class PromiseCheck {
 
   // Nothing is left of the meshes in between, for which the limit also holds.
   void check_numbers() {
+    const bool approximate = promise_.approximate;  // with a hull those at the outer box are not
     const auto is_written = [&](const ExactRecord::Tet& tet) {
-      return tet.inside || promise_.region == Region::hull;
+      return tet.inside || (promise_.region == Region::hull && !approximate);
     };
+    const auto& last = approximate ? record_.refined : record_.final;
     at_most(promise_.max_vertices, static_cast<double>(record_.mesh_vertices.size()), "vertices");
-    at_most(promise_.budget, static_cast<double>(std::ranges::count_if(record_.final, is_written)),
+    at_most(promise_.budget, static_cast<double>(std::ranges::count_if(last, is_written)),
             "tetrahedra");
   }
   void at_most(double promised, double written, const std::string& what) {
@@ -627,19 +629,17 @@ void Promise::settle(const ExactRecord& record) {
   set_kept(*this);
 }
 
-void Promise::allow_sizes(double diagonal, double volume, double area) {
+void Promise::allow_sizes(double diagonal, double volume, double area, double common_edge) {
   const bool may_choose = size == kSizeAuto && !keep && !all_regions && planar != 0 &&
-                          !approximate && task == Task::mesh;
-  // Shorter ones would take 10^12 tetrahedra for each diagonal in length.
-  constexpr double kShortest = 1e-12;
-  if (budget > 0) {
-    longest_unasked = may_choose ? kShortest * diagonal : 0;
-    return;
-  }
-  const bool may_choose_unasked = may_choose && tolerance == 0 && max_edge == 0 &&
-                                  size_field.empty() && improve && region == Region::interior;
+                          !approximate && region == Region::interior && task == Task::mesh;
   // Of the diagonal, but for the last.
   constexpr double kSmallest = 0.05, kLargest = 0.1, kRounded = 0.999;
+  if (budget > 0) {
+    longest_unasked = may_choose ? kRounded * common_edge : 0;
+    return;
+  }
+  const bool may_choose_unasked =
+      may_choose && tolerance == 0 && max_edge == 0 && size_field.empty() && improve;
   // Planar facets may make the part thinner on both sides.
   const double thickness = kRounded * 2 * volume / area - 2 * most_planar() * diagonal;
   const double least = thickness > kSmallest * diagonal ? std::min(thickness, kLargest * diagonal)

@@ -76,6 +76,7 @@ struct Promise {
   double size = 0;
   // Edges longer than this may have been halved for such a size; 0: none. The verification sets it.
   double longest_unasked = 0;
+  // Edges up to this one may not be halved; 0: none is.
   double longest_whole() const { return longest_unasked > 0 ? longest_unasked : max_edge; }
   bool edges_by_size = false;                          // max_edge follows from it
   std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
@@ -91,8 +92,10 @@ struct Promise {
   // not be.
   void settle(const delmesher::ExactRecord& record);
 
-  // Of a surface of this diagonal and area, and a mesh of this volume, before settle().
-  void allow_sizes(double diagonal, double volume, double area);
+  // Of a surface of this diagonal and area, and a mesh of this volume, before settle(). Of its
+  // edges, each once per tetrahedron, 95 % are no longer than common_edge: with a budget there is a
+  // bound that few exceed, if any.
+  void allow_sizes(double diagonal, double volume, double area, double common_edge);
 
   // The option that max_edge is of.
   const char* bound_on_edges() const { return edges_by_size ? "--size" : "--max-edge"; }

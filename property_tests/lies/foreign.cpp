@@ -218,6 +218,11 @@ const Lie kForeign[] = {
        run_approximate(t);
        make_three_of_two(t.sample.mesh);
      }},
+    {"a mesh of --approximate with more tetrahedra than its budget", "promise",
+     [](Told& t) {
+       run_approximate(t);
+       t.promise.budget = static_cast<double>(t.sample.mesh.tetrahedra.size()) - 1;
+     }},
     {"a final mesh where --approximate was promised", "promise",
      [](Told& t) { t.promise.approximate = true; }},
     {"a mesh before repairs, none after, for --approximate", "promise",

@@ -57,6 +57,13 @@ std::size_t some(const std::vector<ExactRecord::Tet>& tets, bool inside) {
 constexpr std::array<double, 4> kMiddle = {0.25, 0.25, 0.25, 0.25}, kBad = {0.3, 0.3, 0.3, 0.1},
                                 kNearFace = {0.334, 0.333, 0.332999999, 0.000000001};
 
+void make_many_bad(Told& told) {
+  const std::size_t count = told.record.final.size();
+  for (std::size_t n = 0; n < count; ++n) {
+    if (told.record.final[n].inside) split(told.record, told.record.final, n, kBad);
+  }
+}
+
 const Lie kImproved[] = {
     {"a point of no origin before the improvement", "enrichment",
      [](Told& t) {
@@ -124,10 +131,14 @@ const Lie kImproved[] = {
     {"many tetrahedra are bad where some were", "improvement",
      [](Told& t) {
        improve(t);
-       const std::size_t count = t.record.final.size();
-       for (std::size_t n = 0; n < count; ++n) {
-         if (t.record.final[n].inside) split(t.record, t.record.final, n, kBad);
-       }
+       make_many_bad(t);
+     }},
+    {"the same, where a budget allows shorter edges", "improvement",
+     [](Told& t) {
+       improve(t);
+       t.promise.budget = 1e6;
+       t.promise.size = Promise::kSizeAuto;
+       make_many_bad(t);
      }},
     {"an improvement that was not asked for", "repairs",
      [](Told& t) {

@@ -81,7 +81,7 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, region_point
     InvalidSurface
         With the defects. `repair` mends some.
     LimitReached
-        With the limit: "size", "time", "memory" or "precision".
+        With the limit: "size", "budget", "time", "memory" or "precision".
     ValueError, TypeError
         An option or an array makes no sense.
     """

@@ -21,12 +21,12 @@ class Error(Exception):
 
 
 class LimitReached(Error):
-    """Vertices, time, memory or the precision of doubles.
+    """Vertices, tetrahedra, time, memory or the precision of doubles.
 
     Attributes
     ----------
     limit : str
-        "size", "time", "memory" or "precision".
+        "size", "budget", "time", "memory" or "precision".
     """
 
     def __init__(self, message: str, limit: str = ""):  # with a default, or it could not leave another process

@@ -1,8 +1,10 @@
-#include "mesher/policies/filling.h"
+#include "mesher/policies/budget_size.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 
@@ -31,8 +33,8 @@ Options with_budget(std::uint64_t budget) {
 
 // How many sizes are tried until a mesh is full; -1: not within eight.
 int tries(double budget, double without, const std::function<double(double)>& made) {
-  Filling filling(with_budget(static_cast<std::uint64_t>(budget)),
-                  solid(static_cast<std::size_t>(without)));
+  BudgetSize filling(with_budget(static_cast<std::uint64_t>(budget)),
+                     solid(static_cast<std::size_t>(without)));
   double most = without;
   for (int n = 1; n <= 8; ++n) {
     const double tetrahedra = made(filling.size());
@@ -48,15 +50,15 @@ int tries(double budget, double without, const std::function<double(double)>& ma
   return -1;
 }
 
-TEST(Filling, IsWantedWhereASizeMayBeChosenAndThereIsRoom) {
+TEST(BudgetSize, IsWantedWhereASizeMayBeChosenAndThereIsRoom) {
   const Result coarse = solid(899);
-  EXPECT_TRUE(Filling::is_wanted(with_budget(1000), coarse));
-  EXPECT_FALSE(Filling::is_wanted(with_budget(0), coarse));
-  EXPECT_FALSE(Filling::is_wanted(with_budget(998), coarse));
+  EXPECT_TRUE(BudgetSize::is_wanted(with_budget(1000), coarse));
+  EXPECT_FALSE(BudgetSize::is_wanted(with_budget(0), coarse));
+  EXPECT_FALSE(BudgetSize::is_wanted(with_budget(998), coarse));
   const auto with = [&](const auto& change) {
     Options options = with_budget(1000);
     change(options);
-    return Filling::is_wanted(options, coarse);
+    return BudgetSize::is_wanted(options, coarse);
   };
   EXPECT_FALSE(with([](Options& o) { o.size = 0; }));
   EXPECT_FALSE(with([](Options& o) { o.size = 1; }));
@@ -66,12 +68,12 @@ TEST(Filling, IsWantedWhereASizeMayBeChosenAndThereIsRoom) {
   EXPECT_TRUE(with([](Options& o) { o.surface = SurfaceChoice::keep; }));
   Result failed = coarse;
   failed.status.code = StatusCode::limit_reached;
-  EXPECT_FALSE(Filling::is_wanted(with_budget(1000), failed));
+  EXPECT_FALSE(BudgetSize::is_wanted(with_budget(1000), failed));
 }
 
 // What is expected at first may be off, and small features have tetrahedra without a size, which
 // may be the same ones.
-TEST(Filling, FindsASizeInAFewRuns) {
+TEST(BudgetSize, FindsASizeInAFewRuns) {
   const Part part = part_of(solid(1));
   int most = 0, sum = 0, count = 0;
   for (const double budget : {200.0, 1e4, 1e6}) {
@@ -100,10 +102,10 @@ TEST(Filling, FindsASizeInAFewRuns) {
 }
 
 // Edges no longer than 0.1 are asked for.
-TEST(Filling, MakesNoEdgeLongerThanABound) {
+TEST(BudgetSize, MakesNoEdgeLongerThanABound) {
   Options options = with_budget(1000);
   options.max_edge = 0.1;
-  Filling filling(options, solid(10));
+  BudgetSize filling(options, solid(10));
   for (int n = 0; n < 6 && !filling.is_done(); ++n) {
     EXPECT_LT(kMostOfSize * filling.size(), 0.1);
     filling.is_too_much(0);
@@ -111,8 +113,8 @@ TEST(Filling, MakesNoEdgeLongerThanABound) {
 }
 
 // Of some parts no mesh has so many tetrahedra that are good enough: none of these densities fits.
-TEST(Filling, GivesUpWhereNothingFits) {
-  Filling filling(with_budget(1000), solid(10));
+TEST(BudgetSize, GivesUpWhereNothingFits) {
+  BudgetSize filling(with_budget(1000), solid(10));
   int n = 0;
   for (double before = 0; n < 100 && !filling.is_done(); ++n) {
     EXPECT_GT(filling.size(), before);
@@ -123,14 +125,14 @@ TEST(Filling, GivesUpWhereNothingFits) {
 }
 
 // Lengths are in any unit.
-TEST(Filling, ScalesWithThePart) {
+TEST(BudgetSize, ScalesWithThePart) {
   Result large = solid(10);
   for (auto& p : large.mesh.vertices) {
     for (double& x : p) x *= 0x1p40;
   }
   large.statistics.bbox_diagonal *= 0x1p40;
-  EXPECT_EQ(Filling(with_budget(1000), large).size(),
-            0x1p40 * Filling(with_budget(1000), solid(10)).size());
+  EXPECT_EQ(BudgetSize(with_budget(1000), large).size(),
+            0x1p40 * BudgetSize(with_budget(1000), solid(10)).size());
 }
 
 }  // namespace

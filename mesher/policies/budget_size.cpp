@@ -1,4 +1,4 @@
-#include "mesher/policies/filling.h"
+#include "mesher/policies/budget_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace delmesher::policies {
 namespace {
 
-constexpr double kFull = 0.9, kAim = 0.95, kUnknown = 2;  // of the budget
+constexpr double kAim = 0.95, kUnknown = 2;  // of the budget
 
 double cube(double x) {
   return x * x * x;
@@ -18,17 +18,17 @@ double cube(double x) {
 
 }  // namespace
 
-bool Filling::is_wanted(const Options& options, const Result& without_size) {
+bool BudgetSize::is_wanted(const Options& options, const Result& without_size) {
   return options.budget > 0 && options.size == kSizeAuto && options.planar != 0 &&
-         !options.approximate && without_size.status.ok() &&
+         !options.approximate && options.region == Region::interior && without_size.status.ok() &&
          static_cast<double>(without_size.mesh.tetrahedra.size()) <
-             kFull * static_cast<double>(options.budget);
+             kFullBudget * static_cast<double>(options.budget);
 }
 
-Filling::Filling(const Options& options, const Result& without_size)
+BudgetSize::BudgetSize(const Options& options, const Result& without_size)
     : budget_(static_cast<double>(options.budget)),
       fitting_{cube(options.max_edge > 0 ? kMostOfSize / options.max_edge
-                                         : 1 / without_size.statistics.bbox_diagonal),
+                                         : 1 / part_of(without_size).diagonal),
                static_cast<double>(without_size.mesh.tetrahedra.size())} {
   const Part part = part_of(without_size);
   // With shorter edges there are more, because a tetrahedron is no larger than a regular one.
@@ -39,40 +39,41 @@ Filling::Filling(const Options& options, const Result& without_size)
                        kLeast * fitting_.density));
 }
 
-void Filling::try_density(double density) {
+void BudgetSize::try_density(double density) {
   // The last bits of a root are not the same everywhere.
   size_ = static_cast<float>(1 / std::cbrt(density));
   is_done_ = is_done_ || !(size_ > 0) || !std::isfinite(size_);
 }
 
-void Filling::fits(double tetrahedra) {
-  is_done_ = tetrahedra >= kFull * budget_;
+void BudgetSize::fits(double tetrahedra) {
+  is_done_ = tetrahedra >= kFullBudget * budget_;
   fitting_ = {cube(1 / size_), tetrahedra};
   has_fitted_ = true;
   go_on(fitting_);
 }
 
-void Filling::is_too_much(double tetrahedra) {
+void BudgetSize::is_too_much(double tetrahedra) {
   too_much_ = {cube(1 / size_), tetrahedra > budget_ ? tetrahedra : kUnknown * budget_};
   was_too_much_ = true;
   go_on(too_much_);
 }
 
-void Filling::go_on(const Tried& last) {
+void BudgetSize::go_on(const Tried& last) {
   const double aim = kAim * budget_;
-  constexpr double kLeastSpan = 0.03, kMargin = 0.05, kPower = 0.9;
-  const double span = std::log(too_much_.density / fitting_.density);
-  is_done_ = is_done_ || span < kLeastSpan;
+  constexpr double kClosest = 1.03, kMargin = 0.05, kPower = 0.9;
+  const double ratio = too_much_.density / fitting_.density;
+  is_done_ = is_done_ || ratio < kClosest;
+  const double span = std::log(ratio);
   double share =
       std::log(aim / fitting_.tetrahedra) / std::log(too_much_.tetrahedra / fitting_.tetrahedra);
   if (!has_fitted_ || !was_too_much_) {
     // Larger steps each time: where small features have most tetrahedra, sizes hardly change them.
     const double step = std::log(aim / last.tetrahedra) * ++steps_ / kPower;
     share = (std::log(last.density / fitting_.density) + step) / span;
-  } else if (span > span_ / 2) {
+  } else if (ratio * ratio > ratio_) {
     share = (share + 0.5) / 2;  // an end that stays is too far off
   }
-  span_ = span;
+  ratio_ = ratio;
   try_density(fitting_.density * std::exp(std::clamp(share, kMargin, 1 - kMargin) * span));
 }
 

@@ -10,12 +10,12 @@ namespace delmesher::policies {
 // The size of edges with which a mesh has at least nine tenths of Options::budget, by whole runs.
 // Between two sizes tried, tetrahedra are taken for a power of the density: of the third power of
 // how many edges go into a length.
-class Filling {
+class BudgetSize {
  public:
   // May a size be chosen, and has the mesh without one fewer than nine tenths?
   static bool is_wanted(const Options& options, const Result& without_size);
 
-  Filling(const Options& options, const Result& without_size);
+  BudgetSize(const Options& options, const Result& without_size);
 
   bool is_done() const { return is_done_; }
   // To be tried, if it is not done.
@@ -36,7 +36,7 @@ class Filling {
   const double budget_;
   Tried fitting_, too_much_;
   bool has_fitted_ = false, was_too_much_ = false;  // with sizes tried
-  double span_ = HUGE_VAL;                          // how far both were apart, as a logarithm
+  double ratio_ = HUGE_VAL;                         // of the densities of both before
   int steps_ = 0;                                   // before
   double size_ = 0;
   bool is_done_ = false;
