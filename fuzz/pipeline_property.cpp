@@ -245,7 +245,7 @@ Options options_for(const Surface& surface) {
   options.gabriel = (hash >> 16) % 2 == 0;
   options.improve = (hash >> 19) % 4 != 0;
   if ((hash >> 24) % 4 != 0) options.size = 0;
-  if ((hash >> 26) % 8 == 0) options.budget = kMostVertices;
+  if ((hash >> 26) % 32 == 0) options.budget = kMostVertices;
   constexpr double kPlanar[] = {delmesher::kPlanarAuto, delmesher::kPlanarAuto, 0, 1e-4};
   options.planar = kPlanar[(hash >> 17) % 4];
   if ((hash >> 7) % 8 == 0) options.max_edge = size / 4;
