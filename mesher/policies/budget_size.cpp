@@ -28,9 +28,9 @@ bool BudgetSize::is_wanted(const Options& options, const Result& without_size) {
 BudgetSize::BudgetSize(const Options& options, const Result& without_size)
     : budget_(static_cast<double>(options.budget)),
       fitting_{cube(options.max_edge > 0 ? kMostOfSize / options.max_edge
-                                         : 1 / part_of(without_size).diagonal),
+                                         : 1 / without_size.statistics.bbox_diagonal),
                static_cast<double>(without_size.mesh.tetrahedra.size())} {
-  const Part part = part_of(without_size);
+  const Part part = part_of(without_size.mesh);
   // With shorter edges there are more, because a tetrahedron is no larger than a regular one.
   const double shortest = std::cbrt(6 * std::numbers::sqrt2 * part.volume / budget_) / kMostOfSize;
   too_much_ = {cube(1 / shortest), kUnknown * budget_};

@@ -74,7 +74,7 @@ TEST(BudgetSize, IsWantedWhereASizeMayBeChosenAndThereIsRoom) {
 // What is expected at first may be off, and small features have tetrahedra without a size, which
 // may be the same ones.
 TEST(BudgetSize, FindsASizeInAFewRuns) {
-  const Part part = part_of(solid(1));
+  const Part part = part_of(solid(1).mesh);
   int most = 0, sum = 0, count = 0;
   for (const double budget : {200.0, 1e4, 1e6}) {
     for (const double without : {1.0, 0.3 * budget, 0.6 * budget, 0.85 * budget}) {

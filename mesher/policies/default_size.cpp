@@ -9,8 +9,7 @@
 
 namespace delmesher::policies {
 
-Part part_of(const Result& result) {
-  const TetMesh& mesh = result.mesh;
+Part part_of(const TetMesh& mesh) {
   const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
   double volume = 0, area = 0;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
@@ -20,7 +19,7 @@ Part part_of(const Result& result) {
   for (const auto& [a, b, c] : mesh.boundary) {
     area += norm(cross(subtract(at(b), at(a)), subtract(at(c), at(a))));
   }
-  return {result.statistics.bbox_diagonal, volume / 6, area / 2};
+  return {volume / 6, area / 2};
 }
 
 bool may_choose_size(const Options& options) {
@@ -34,10 +33,11 @@ DefaultSize default_size(const Result& without_size) {
   constexpr double kLargest = 0.1, kSmallest = 0.05;  // of the diagonal
   constexpr double kFew = 0.5, kThinnest = 0.1;
   const TetMesh& mesh = without_size.mesh;
-  const Part part = part_of(without_size);
-  if (part.diagonal == 0 || mesh.tetrahedra.empty()) return {};
+  const Part part = part_of(mesh);
+  const double diagonal = without_size.statistics.bbox_diagonal;
+  if (diagonal == 0 || mesh.tetrahedra.empty()) return {};
   const double thickness = 2 * part.volume / part.area;  // of a plate
-  const double size = std::clamp(thickness, kSmallest * part.diagonal, kLargest * part.diagonal);
+  const double size = std::clamp(thickness, kSmallest * diagonal, kLargest * diagonal);
   const double made = refine::tetrahedra_of_size(size, part.volume, part.area);
   const bool few = static_cast<double>(mesh.tetrahedra.size()) < kFew * made;
   if (!few || thickness < kThinnest * size) return {};

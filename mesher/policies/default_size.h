@@ -10,9 +10,9 @@ namespace delmesher::policies {
 
 // What the number of tetrahedra with a size follows from.
 struct Part {
-  double diagonal = 0, volume = 0, area = 0;
+  double volume = 0, area = 0;
 };
-Part part_of(const Result& result);
+Part part_of(const TetMesh& mesh);
 
 // May Options::size be chosen? Not where another option says how long edges are or how many
 // tetrahedra are wanted, where edges of the surface are not to be halved, or come back at the end
